@@ -256,7 +256,8 @@ double mean_content(const PackingOptions &options) {
 double settled_content(const BedLayer &layer) {
   const PackingOptions &options = layer.packing;
   const double base = options.width * (options.dimensions() == 2 ? 1.0 : options.depth);
-  return base * layer.thickness * settled_share(options.dimensions());
+  return base * layer.thickness *
+         (layer.pouring ? layer.pouring->solid_fraction() : settled_share(options.dimensions()));
 }
 
 /// The size at which the curve must be cut so that options.balls balls have a content. \param height m, for
@@ -314,7 +315,7 @@ int balls_of(const BedLayer &layer) {
 }
 
 double default_cut_of_layer(const SieveCurve &curve, const BedLayer &layer) {
-  const BedLayer whole = {checked_with(curve, layer.packing), layer.thickness};
+  const BedLayer whole = {checked_with(curve, layer.packing), layer.thickness, layer.pouring};
   if (const std::string fault = whole.invalid(); !fault.empty()) throw std::invalid_argument(fault);
   return cut_for(curve, layer.packing, settled_content(layer), layer.thickness);
 }
@@ -406,6 +407,27 @@ std::string name_of_grading(const PackingOptions &options) {
                        : grading_name(options.grading);
 }
 
+/// A number of each layer, of how it is poured.
+std::string poured_list(const std::vector<BedLayer> &layers, double Pouring::*number) {
+  std::string list;
+  for (const BedLayer &layer : layers)
+    list += fmt::format("{}{:.6g}", list.empty() ? "" : ",", (*layer.pouring).*number);
+  return list;
+}
+
+/// What the header notes of layers of a wanted density.
+std::string poured_notes(const std::vector<BedLayer> &layers) {
+  if (std::any_of(layers.begin(), layers.end(), [](const BedLayer &layer) { return !layer.pouring; }))
+    return {};
+  std::string notes;
+  for (const auto &[name, number] :
+       {std::pair{"relative_density", &Pouring::relative_density}, std::pair{"e_loosest", &Pouring::loosest},
+        std::pair{"e_densest", &Pouring::densest}, std::pair{"pour_friction", &Pouring::friction},
+        std::pair{"pour_rolling", &Pouring::rolling}})
+    notes += fmt::format("# drumlin note {} {}\n", name, poured_list(layers, number));
+  return notes;
+}
+
 /// \param parts the options of each layer, which have the same box
 /// \param more further comment lines of the file's header: what is noted of the layers
 std::string data_text(const std::vector<PackingOptions> &parts, const std::string &more, double density,
@@ -473,7 +495,8 @@ std::string bed_data(const std::vector<BedLayer> &layers, double density, const 
   }
   return data_text(parts,
                    fmt::format("# drumlin note layers {}\n# drumlin note layer_thicknesses {}\n",
-                               layers.size(), thicknesses),
+                               layers.size(), thicknesses) +
+                       poured_notes(layers),
                    density, packing);
 }
 

@@ -2,6 +2,7 @@
 // settles.
 #pragma once
 
+#include "bed/relative_density.h"
 #include "bed/sieve_curve.h"
 #include "support/range.h"
 
@@ -68,7 +69,8 @@ double default_cut(const SieveCurve &curve, const PackingOptions &options);
 /// A layer of a bed of several, whose balls fall on the layers below when these have come to rest.
 struct BedLayer {
   PackingOptions packing;
-  double thickness; ///< m, wanted after it has settled
+  double thickness;                    ///< m, wanted after it has settled
+  std::optional<Pouring> pouring = {}; ///< for a wanted density; nothing: as in.settle pours by default
 
   /// Empty if the thickness is allowed, else what is wrong: name, value, what is allowed.
   std::string invalid() const;
@@ -123,7 +125,8 @@ Packing pack_layers(const std::vector<BedLayer> &layers,
 std::string bed_data(const PackingOptions &options, double density, const Packing &packing);
 /// The same for a bed of layers. Of the notes the grading is that of each layer, the lowest first, joined by
 /// +, d50 and C_u are those of each layer, separated by commas, and the radii are of all balls; the number of
-/// layers and their thicknesses are noted, too.
+/// layers and their thicknesses are noted, too, and, if all have a wanted density, their relative densities,
+/// the void ratios of their loosest and densest packings, and how they are poured.
 std::string bed_data(const std::vector<BedLayer> &layers, double density, const Packing &packing);
 
 /// The balls of a packing sorted by size.

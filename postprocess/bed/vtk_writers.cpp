@@ -20,6 +20,7 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <array>
+#include <limits>
 #include <stdexcept>
 #include <tuple>
 #include <type_traits>
@@ -160,7 +161,8 @@ void write_contact_lines(const fs::path &file, const std::vector<Ball> &balls, c
   write<vtkXMLPolyDataWriter>(file, data.Get());
 }
 
-void write_field_image(const fs::path &file, const FieldGrid &grid, const BedFields &fields) {
+void write_field_image(const fs::path &file, const FieldGrid &grid, const BedFields &fields,
+                       const std::vector<LayerPackings> &packings) {
   std::array<int, 3> points{};
   for (std::size_t a = 0; a < 3; ++a) // a flat grid is a sheet in z = 0
     points[a] = grid.flat && a == 2 ? 1 : static_cast<int>(grid.cells[a]) + 1;
@@ -176,6 +178,21 @@ void write_field_image(const fs::path &file, const FieldGrid &grid, const BedFie
   add_components(columns, "stress", fields.stress, itself);
   add_numbers(columns, "pressure", fields.pressure, itself);
   add_components(columns, "fabric", fields.fabric, itself);
+  if (!packings.empty()) {
+    std::vector<double> relative, compaction;
+    for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+      const std::size_t row = cell / grid.cells[0] % grid.cells[1]; // y is up
+      const double height = grid.origin[1] + (static_cast<double>(row) + 0.5) * grid.sides[1];
+      const LayerPackings &layer = layer_at(packings, height);
+      const double solid = fields.solid_fraction[cell];
+      const bool any = solid > 0.0;
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      relative.push_back(any ? layer.relative_density(solid) : none);
+      compaction.push_back(any ? layer.compaction(solid) : none);
+    }
+    add_numbers(columns, "relative_density", relative, itself);
+    add_numbers(columns, "compaction", compaction, itself);
+  }
   write<vtkXMLImageDataWriter>(file, data.Get());
 }
 

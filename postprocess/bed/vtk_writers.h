@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bed/coarse_graining.h"
+#include "bed/relative_density.h"
 
 #include <filesystem>
 #include <string>
@@ -27,8 +28,11 @@ void write_ball_points(const std::filesystem::path &file, const std::vector<Ball
 /// wall, with force, normal_force, tangential_force, overlap, id1, id2 (0: a wall) as cell data.
 void write_contact_lines(const std::filesystem::path &file, const std::vector<Ball> &balls,
                          const BedContacts &contacts);
-/// An image with the fields as cell data, each by its name in BedFields.
-void write_field_image(const std::filesystem::path &file, const FieldGrid &grid, const BedFields &fields);
+/// An image with the fields as cell data, each by its name in BedFields. Where `packings`, those of the
+/// layers, are known, there are relative_density and compaction, too; in a cell without soil they are not
+/// numbers.
+void write_field_image(const std::filesystem::path &file, const FieldGrid &grid, const BedFields &fields,
+                       const std::vector<LayerPackings> &packings = {});
 
 /// The text of a .pvd file: ParaView's list of the files of a time series.
 /// \param files time, s, and name from the folder of the .pvd file

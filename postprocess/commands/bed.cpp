@@ -1,8 +1,10 @@
 #include "commands/bed.h"
 
 #include "bed/known_gradings.h"
+#include "bed/relative_density.h"
 #include "commands/commands.h"
 #include "commands/text_options.h"
+#include "engine/deck_run.h"
 #include "pages/figure_data.h"
 #include "pages/gnuplot.h"
 #include "support/files.h"
@@ -56,7 +58,7 @@ struct Arguments {
   std::string balls, density, seed, grading, out = BedRequest().out.string();
   std::array<std::string, number_options.size()> numbers;
   std::optional<std::string> sieve, cut;
-  std::vector<std::string> layers;
+  std::vector<std::string> layers, relative_densities, packings;
   bool has_balls = false;        ///< whether --balls was given
   std::string instead_of_layers; ///< an option that was given and says the same as --layer; empty: none
   std::string instead_of_sieve;  ///< an option that was given and says the sizes in another way; empty: none
@@ -110,14 +112,70 @@ void judge_sieve(const Arguments &arguments, BedRequest &request) {
                             : default_cut(curve, request.packing));
 }
 
-/// A layer from THICKNESS[:SIEVE[:CUT]]. \param box what the layer shares with the others; its number of
-/// balls is the layer's share of --balls
-BedRequest::Layer asked_layer(const std::string &text, const PackingOptions &box) {
+/// Whether the balls are those of the stored packings, of which the ratio of sizes counts.
+bool is_usual_mix(const PackingOptions &box) {
+  const PackingOptions usual;
+  return box.grading == usual.grading &&
+         std::abs(box.radius_max / box.radius_min * usual.radius_min / usual.radius_max - 1.0) < 1e-9;
+}
+
+/// The packings of a layer's mix: of `file`, a density.csv of in.density, or, if it is empty, the stored ones
+/// of case gravel.
+MeasuredPackings known_packings(const std::string &file, const std::string &density, bool has_curve,
+                                const PackingOptions &box) {
+  if (!file.empty()) {
+    const fs::path path = path_option("--packings", file);
+    if (!fs::exists(path))
+      throw UsageError(refusal("--packings", file, "the density.csv of a run of inputs/soil/in.density"));
+    try {
+      return read_packings(path);
+    } catch (const std::runtime_error &fault) {
+      throw UsageError(fault.what());
+    }
+  }
+  if (has_curve || !is_usual_mix(box))
+    throw UsageError(refusal("--relative-density", density,
+                             "with --packings: the loosest and the densest packing of another mix than that "
+                             "of case gravel are known when inputs/soil/in.density has made them"));
+  return read_packings(
+      input_file(box.dimensions() == 2 ? "bed/packings.gravel.csv" : "bed/packings.gravel3d.csv"));
+}
+
+/// What an option given once, or once for each layer, says of a layer; empty: the option is not given.
+std::string of_layer(const char *option, const std::vector<std::string> &given, std::size_t layer,
+                     std::size_t layers) {
+  if (given.empty()) return {};
+  if (given.size() != 1 && given.size() != layers)
+    throw UsageError(
+        refusal(option, given.back(), fmt::format("once, or once for each of the {} layers", layers)));
+  return given.size() == 1 ? given.front() : given[layer];
+}
+
+/// How a layer is poured to get the relative density that is asked for.
+std::optional<Pouring> asked_pouring(const Arguments &arguments, std::size_t layer, bool has_curve,
+                                     const PackingOptions &box) {
+  const std::size_t layers = arguments.layers.size();
+  const std::string density = of_layer("--relative-density", arguments.relative_densities, layer, layers),
+                    file = of_layer("--packings", arguments.packings, layer, layers);
+  if (density.empty()) {
+    if (!file.empty()) throw UsageError(refusal("--packings", file, "only with --relative-density"));
+    return {};
+  }
+  constexpr Range between = {0.0, 1.0};
+  const double relative = number_option("--relative-density", density, between);
+  return known_packings(file, density, has_curve, box).pouring(relative);
+}
+
+/// The n-th layer from THICKNESS[:SIEVE[:CUT]]. \param box what the layer shares with the others; its number
+/// of balls is the layer's share of --balls
+BedRequest::Layer asked_layer(const Arguments &arguments, std::size_t n, const PackingOptions &box) {
+  const std::string &text = arguments.layers[n];
   std::vector<std::string> parts;
   boost::split(parts, text, [](char letter) { return letter == ':'; });
   constexpr std::size_t most_parts = 3;
   if (parts.size() > most_parts) throw UsageError(refusal("--layer", text, "THICKNESS[:SIEVE[:CUT]]"));
   BedRequest::Layer layer{{box, number_option("--layer", parts[0], side)}, {}};
+  layer.bed.pouring = asked_pouring(arguments, n, parts.size() > 1, box);
   if (parts.size() > 1) {
     const auto [curve, name] = asked_grading("--layer", parts[1]);
     layer.asked = curve;
@@ -152,7 +210,12 @@ void judge_effects(const Arguments &arguments) {
 
 /// Sets the layers from `--layer`.
 void judge_layers(const Arguments &arguments, BedRequest &request) {
-  if (arguments.layers.empty()) return;
+  if (arguments.layers.empty()) {
+    for (const auto &[option, given] : {std::pair{"--relative-density", &arguments.relative_densities},
+                                        std::pair{"--packings", &arguments.packings}})
+      if (!given->empty()) throw UsageError(refusal(option, given->front(), "only with --layer"));
+    return;
+  }
   const std::string &first = arguments.layers.front();
   if (!arguments.instead_of_layers.empty())
     throw UsageError(refusal("--layer", first, fmt::format("without {}", arguments.instead_of_layers)));
@@ -162,8 +225,9 @@ void judge_layers(const Arguments &arguments, BedRequest &request) {
   PackingOptions box = request.packing;
   box.balls = std::max(1, box.balls / static_cast<int>(arguments.layers.size()));
   double balls = 0.0;
-  for (const std::string &layer : arguments.layers) {
-    request.layers.push_back(asked_layer(layer, box));
+  for (std::size_t n = 0; n < arguments.layers.size(); ++n) {
+    const std::string &layer = arguments.layers[n];
+    request.layers.push_back(asked_layer(arguments, n, box));
     balls += request.layers.back().bed.packing.balls;
     if (balls > PackingOptions::most_balls)
       throw UsageError(refusal("--layer", layer,
@@ -191,6 +255,8 @@ void keep_curves(const Arguments &arguments, const fs::path &out) {
     boost::split(parts, layer, [](char letter) { return letter == ':'; });
     if (parts.size() > 1) add("--layer", parts[1]);
   }
+  for (const std::string &file : arguments.packings)
+    curves.push_back({"--packings", path_option("--packings", file)});
   std::vector<GivenPath> outputs = files_in("--out", out.parent_path(), grading_files(out));
   outputs.push_back({"--out", out});
   keep_apart(curves, outputs);
@@ -312,6 +378,16 @@ std::vector<BedLayer> layers_of(const BedRequest &request) {
   return layers;
 }
 
+/// How a layer is poured, for the line about it.
+std::string poured_words(const BedLayer &layer) {
+  if (!layer.pouring) return {};
+  const Pouring &poured = *layer.pouring;
+  return fmt::format(", at a relative density of {:g}: void ratio {:.3f} ({:.3f} loosest, {:.3f} densest), "
+                     "poured with friction {:.3g} and rolling friction {:.3g}",
+                     poured.relative_density, poured.void_ratio, poured.loosest, poured.densest,
+                     poured.friction, poured.rolling);
+}
+
 /// Number of balls that the bed is to have.
 int wanted_balls(const BedRequest &request) {
   int balls = request.layers.empty() ? request.packing.balls : 0;
@@ -357,8 +433,8 @@ void write_bed(const BedRequest &request) {
   }
   fmt::print("{}: {} balls, filled to {:.3f} m\n", out.string(), packing.balls.size(), packing.height);
   for (std::size_t n = 0; n < layers.size(); ++n)
-    fmt::print("Layer {}: {} balls, to be {:g} m thick when it has settled\n", n + 1, layers[n].packing.balls,
-               layers[n].thickness);
+    fmt::print("Layer {}: {} balls, to be {:g} m thick when it has settled{}\n", n + 1,
+               layers[n].packing.balls, layers[n].thickness, poured_words(layers[n]));
   if (!files) return;
   Figure drawn;
   drawn.name = figure;
@@ -411,6 +487,17 @@ void add_bed_command(CLI::App &app, Session &) {
          "--radius-max, --grading), and the smallest size of its balls [mm] (else so that the layer has its "
          "share of --balls, the same for each); --balls then counts for curves without CUT only")
       ->type_name("THICKNESS[:SIEVE[:CUT]]");
+  bed->add_option(
+         "--relative-density", arguments->relative_densities,
+         "of a layer, from 0, the loosest packing of its mix, to 1, the densest; once, or once for each "
+         "--layer: in.settle then pours the layer with the friction that gives it")
+      ->type_name("NUMBER");
+  bed->add_option(
+         "--packings", arguments->packings,
+         "density.csv of inputs/soil/in.density, the loosest and the densest packing of the layer's mix "
+         "and those between; once, or once for each --layer; default: those of case gravel, for its "
+         "radii alone")
+      ->type_name("FILE");
   text_option(bed, "--seed", "COUNT", arguments->seed, "of the random numbers");
   text_option(bed, "--out", "FILE", arguments->out, "the data file; its folder is made if missing");
   bed->callback([arguments, bed] {

@@ -64,6 +64,7 @@ struct RunParameters {
   double dt = 0.0; ///< time step, s
   std::optional<double> omega,
       F_drive; ///< of the excitation: angular frequency, rad/s, and amplitude, N; where the run has one
+  std::vector<LayerPackings> packings; ///< of the layers; empty: not known
 };
 
 RunParameters run_parameters(const fs::path &folder) {
@@ -83,7 +84,8 @@ RunParameters run_parameters(const fs::path &folder) {
   if (!dt)
     throw std::runtime_error(fmt::format(
         "{}: has no 'timestep'; allowed: files with the time step of the run in s", file.string()));
-  return {*dt, number("omega", positive, "a number > 0 in rad/s"), number("Fw", 0.0, "a number >= 0 in N")};
+  return {*dt, number("omega", positive, "a number > 0 in rad/s"), number("Fw", 0.0, "a number >= 0 in N"),
+          noted_packings(parameters)};
 }
 
 /// The phase of the excitation at a time, and the vertical forces on the drum, named as in bed.csv.
@@ -348,7 +350,8 @@ void write_vtk_series(const VtkArguments &arguments) {
       add_sizes(sizes, balls, sums, contacts);
       if (contacts) {
         write_contact_lines(add(1, contacts_name(step)), balls, *contacts);
-        write_field_image(add(2, fields_name(step)), grid, coarse_grained(balls, contacts->balls, grid));
+        write_field_image(add(2, fields_name(step)), grid, coarse_grained(balls, contacts->balls, grid),
+                          parameters.packings);
       }
       progress.tell("{} of {} steps written", ++done, steps.size());
     }

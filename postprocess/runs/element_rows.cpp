@@ -56,6 +56,17 @@ std::vector<OedometerRow> read_oedometer(const fs::path &file) {
   return rows;
 }
 
+std::vector<DensityRow> read_density(const fs::path &file) {
+  return rows_of<DensityRow>(read_element_table(file), {{"share", &DensityRow::share},
+                                                        {"friction", &DensityRow::friction},
+                                                        {"rolling", &DensityRow::rolling},
+                                                        {"void_ratio", &DensityRow::void_ratio},
+                                                        {"solid_fraction", &DensityRow::solid_fraction},
+                                                        {"relative_density", &DensityRow::relative_density},
+                                                        {"compaction", &DensityRow::compaction},
+                                                        {"coordination", &DensityRow::coordination}});
+}
+
 std::vector<CompressionRow> read_compression(const fs::path &file) {
   const Table table = read_element_table(file);
   std::vector<CompressionRow> rows =

@@ -26,6 +26,21 @@ struct OedometerRow {
 /// Reads oedometer.csv. Throws std::runtime_error with file, line and column, or for less than two rows.
 std::vector<OedometerRow> read_oedometer(const std::filesystem::path &file);
 
+/// A row of density.csv, a packing: the loosest one in the first row, the densest in the second.
+struct DensityRow {
+  double share = 0.0; ///< of the soil's friction and rolling friction
+  double friction = 0.0;
+  double rolling = 0.0;
+  double void_ratio = 0.0;
+  double solid_fraction = 0.0;
+  double relative_density = 0.0;
+  double compaction = 0.0;
+  double coordination = 0.0;
+};
+
+/// Reads density.csv. Throws std::runtime_error with file, line and column, or for less than two rows.
+std::vector<DensityRow> read_density(const std::filesystem::path &file);
+
 /// A row of biaxial.csv or triaxial.csv. Strains are positive in compression; stresses are means since the
 /// row before, kPa.
 struct CompressionRow {

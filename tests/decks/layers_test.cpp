@@ -299,6 +299,38 @@ TEST_P(LayeredBed, SettlesLayerByLayer) {
   EXPECT_GT(counts[4], 20u);
 }
 
+// Layers that were asked for by their density: in.settle pours them with the friction that the balls' file
+// notes, and refuses another one. The denser layer has the smaller void ratio.
+TEST_P(LayeredBed, IsPouredForItsRelativeDensity) {
+  const auto &[engine, dimension] = GetParam();
+  if (dimension == "3") return;
+  const Scratch folder;
+  write_text(folder / "density.csv",
+             "share,friction,rolling,void_ratio,solid_fraction,relative_density,compaction,coordination\n1,0."
+             "8,0.45,0.29,0.775,0,0.92,3\n0,0,0,0.19,0.84,1,1,4\n");
+  well(run_program({DRUMLIN_TOOLS, "bed", "--width", "1", "--layer", "0.3", "--layer", "0.3", "--packings",
+                    "density.csv", "--relative-density", "0", "--relative-density", "1", "--out", "balls"},
+                   {}, folder.path()));
+  const Variables variables = {{"pour_k", "1e8"}, {"pour_dt", "1.8e-5"}, {"balls", "balls"}, {"bed", "soil"}};
+  const std::filesystem::path deck = bed_deck(engine == "lammps" ? "in.settle.lammps" : "in.settle");
+  EXPECT_TRUE(printed(run_deck(deck, with(variables, {{"pour_friction", "0.3"}}), folder.path()),
+                      "variable pour_friction is '0.3'; allowed: 0.8,0, with which 'balls' was made"));
+  well(run_deck(deck, variables, folder.path()));
+  const std::string text = read_text(folder / "soil.data");
+  for (const char *note : {"relative_density 0,1\n", "e_loosest 0.29,0.29\n", "e_densest 0.19,0.19\n",
+                           "pour_friction 0.8,0\n", "pour_rolling 0.45,0\n"})
+    EXPECT_TRUE(contains(text, std::string("# drumlin note ") + note)) << note;
+  // Both layers have the thickness that was asked for when their void ratios differ as their areas do.
+  const std::vector<double> tops = noted_tops(folder / "soil.data");
+  std::map<int, double> area;
+  for (const auto &[type, size, y] : settled_balls(folder / "soil.data"))
+    area[type] += 0.25 * pi * size * size;
+  ASSERT_EQ(tops.size(), 2u);
+  const double looser = (tops[0] / area[1]) / ((tops[1] - tops[0]) / area[4]);
+  EXPECT_GT(looser, 1.03); // 1.29/1.19 = 1.08 without scatter and walls
+  EXPECT_LT(looser, 1.13);
+}
+
 /// Number of balls of an absorbing boundary times the dashpot of each, kg/s, as the log of the fix has it; 0
 /// if there is no such fix.
 double dashpots(const std::string &log, const std::string &id) {
@@ -318,7 +350,7 @@ TEST_P(LayeredBed, CarriesARollerAndContinuesWhereItStopped) {
   const auto &[engine, dimension] = GetParam();
   if (dimension == "3") return;
   const Scratch folder;
-  well(settle(folder, {{"fall", "0.01"}, {"ratio", "1e9"}, {"case", "base_course"}}));
+  well(settle(folder, {{"fall", "0.01"}, {"ratio", "1e9"}, {"case", "two_layers"}}));
   const std::string ending = engine == "lammps" ? ".lammps" : "";
   const Variables roller = {{"r2", "0.1"}, {"r3", "0.05"}, {"m2", "1000"}, {"m3", "500"}};
   const Variables placing =

@@ -182,7 +182,7 @@ std::string default_of(const std::string &file, const std::string &name) {
 
 // The element tests that measure strength have the same friction and rolling friction as the default bed.
 TEST(DefaultContacts, AreThoseOfTheGravel) {
-  for (const std::string deck : {"own_weight", "compression", "in.shear"})
+  for (const std::string deck : {"own_weight", "compression", "in.shear", "in.density"})
     for (const std::string name : {"friction", "rolling"})
       EXPECT_EQ(default_of("../soil/" + deck, name), default_of("../bed/variables", name)) << deck;
 }

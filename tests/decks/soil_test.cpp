@@ -1,5 +1,5 @@
 // The oedometer: regular lattices against their moduli in closed form, energy balances, both engines against
-// each other.
+// each other. The loosest and the densest packing.
 #include "tests/support/element_runs.h"
 
 #include <gtest/gtest.h>
@@ -112,7 +112,8 @@ const ElementTest element_tests[] = {
       {"strain", "1e-5"},
       {"ramp", "200"},
       {"samples_of_strain", "2"}},
-     of_own_weight}};
+     of_own_weight},
+    {"density", {{"sample", "hexagonal"}}, {"void_ratio", "solid_fraction", "coordination"}}};
 
 void PrintTo(const ElementTest &test, std::ostream *out) { *out << test.name; }
 
@@ -219,6 +220,64 @@ TEST(OedometerSample, LoadsADisorderedSample) {
     EXPECT_GT(after_loads(rows, "contact_heat_J")[2], 0) << engine;
     for (const double error : after_loads(rows, "energy_error"))
       EXPECT_LT(std::fabs(error), 1e-4) << engine;
+  }
+}
+
+class Density : public InEngine {};
+INSTANTIATE_TEST_SUITE_P(Engines, Density, ::testing::Values("liggghts", "lammps"),
+                         [](const auto &engine) { return engine.param; });
+
+// Rows of touching discs, eight above the floor's, whatever their friction. The area between the two planes
+// is summed from chords of the discs; the mean height of the surface is pi/4 radius above the upper centres.
+TEST_P(Density, MeasuresTheSolidFractionOfALattice) {
+  for (const double beside : {0.0, 1.3, 2.0}) {
+    const post::Table packings =
+        run_element_test(GetParam(), "density", {{"sample", "hexagonal"}, {"beside", number(beside)}});
+    const double radius = 0.5 * diameter, apart = root3 * radius;
+    const double low = radius + beside * diameter, high = 8 * apart + 0.25 * pi * radius - beside * diameter;
+    double area = 0.0;
+    constexpr int strips = 20000;
+    for (int i = 0; i < strips; ++i)
+      for (int row = 1; row <= 8; ++row) {
+        const double above = low + (i + 0.5) * (high - low) / strips - row * apart;
+        if (std::fabs(above) < radius)
+          area += 2.0 * std::sqrt(radius * radius - above * above) * (high - low) / strips;
+      }
+    for (const double solid : packings.numbers("solid_fraction"))
+      EXPECT_NEAR(solid, area / (diameter * (high - low)), 5e-4) << beside;
+    EXPECT_EQ(packings.rows(), 2u);
+  }
+}
+
+// Without friction a packing comes to rest when it has as many contacts as its balls have coordinates,
+// 2 d contacts a ball, less those of balls that bear nothing. A loose packing has fewer. Between them: order.
+TEST_P(Density, MakesTheLoosestAndTheDensestPacking) {
+  for (const int dimensions : {2, 3}) {
+    Variables variables = {{"shares", "1 0 0.2"}, {"columns", "10"}, {"layers", "12"}, {"k", "1e7"}};
+    if (dimensions == 3)
+      variables = {{"shares", "1 0 0.2"}, {"dimension", "3"}, {"columns", "4"},
+                   {"rows", "4"},         {"layers", "10"},   {"k", "4e5"}};
+    const post::Table packings = run_element_test(GetParam(), "density", variables);
+    ASSERT_EQ(packings.rows(), 3u);
+    const std::vector<double> voids = packings.numbers("void_ratio"),
+                              solid = packings.numbers("solid_fraction"),
+                              relative = packings.numbers("relative_density"),
+                              compaction = packings.numbers("compaction"),
+                              contacts = packings.numbers("coordination"),
+                              friction = packings.numbers("friction"), rolling = packings.numbers("rolling");
+    EXPECT_GT(voids[0], voids[2]);
+    EXPECT_GT(voids[2], voids[1]);
+    EXPECT_LT(solid[1], dimensions == 2 ? pi / std::sqrt(12.0) : pi / std::sqrt(18.0)); // regular lattices
+    EXPECT_GT(solid[1], dimensions == 2 ? 0.81 : 0.58);
+    EXPECT_LE(contacts[1], 2.0 * dimensions);
+    EXPECT_GT(contacts[1], contacts[0] + 0.3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(voids[i], 1.0 / solid[i] - 1.0, 1e-12);
+      EXPECT_NEAR(relative[i], (voids[0] - voids[i]) / (voids[0] - voids[1]), 1e-12);
+      EXPECT_NEAR(compaction[i], solid[i] / solid[1], 1e-12);
+    }
+    EXPECT_NEAR(friction[2], 0.16, 1e-12);
+    EXPECT_NEAR(rolling[2], 0.09, 1e-12);
   }
 }
 

@@ -1,9 +1,13 @@
 #include "report/bed/page.h"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "bed/relative_density.h"
 #include "pages/drawing.h"
 #include "report/answer.h"
 #include "report/bed/figures.h"
@@ -111,13 +115,31 @@ PageTable motion_table(const std::vector<BedResult> &beds) {
   return motion;
 }
 
+/// Relative density of a void ratio, where the loosest and the densest packing are known and one for all
+/// layers.
+std::string relative_density_of(const Run &run, double void_ratio) {
+  std::vector<LayerPackings> layers;
+  try {
+    layers = noted_packings(run.parameters);
+  } catch (const std::runtime_error &) {
+    return dash; // a file that no deck has written
+  }
+  const auto differs = [&layers](const LayerPackings &layer) {
+    return layer.loosest != layers.front().loosest || layer.densest != layers.front().densest;
+  };
+  if (layers.empty() || !std::isfinite(void_ratio) || std::any_of(layers.begin(), layers.end(), differs))
+    return dash;
+  return fixed(relative_density(void_ratio, layers.front().loosest, layers.front().densest), 2);
+}
+
 PageTable state_table(const std::vector<BedResult> &beds) {
   PageTable state(
       "bed_states", "State of the bed",
       "run | transition | settlement at the end (mm) | settlement per cycle (mm) | coordination at the start "
       "(-) | coordination at the end (-) | void ratio at the start (-) | change of the void ratio (-) | "
       "imbalance of energy (% of work) | drum at rest, depth below the surface (% of its diameter) | grading "
-      "| smallest and largest ball (mm) | d50 (mm) | coefficient of uniformity Cu (-) | energy balanced",
+      "| smallest and largest ball (mm) | d50 (mm) | coefficient of uniformity Cu (-) | relative density at "
+      "the start (-) | relative density at the end (-) | energy balanced",
       2);
   state.section = "bed";
   state.verdict = "energy balanced";
@@ -138,6 +160,8 @@ PageTable state_table(const std::vector<BedResult> &beds) {
                rounded(m.void_ratio_end - m.void_ratio_start), rounded(m.imbalance_percent),
                rounded(m.depth_percent), result.run.text("grading", dash), sizes,
                noted(result.run, "d50", 1e3), noted(result.run, "C_u", 1.0),
+               relative_density_of(result.run, m.void_ratio_start),
+               relative_density_of(result.run, m.void_ratio_end),
                judged == RowState::plain    ? dash
                : judged == RowState::agrees ? "yes"
                                             : "no"},
@@ -151,7 +175,9 @@ PageTable state_table(const std::vector<BedResult> &beds) {
       "at the end, less the same at the start. Depth of the drum: of its lowest point before the excitation, "
       "below the mean surface that the soil had before the drum was placed, away from the drum; negative "
       "above. Grading, sizes (diameters), d50 and Cu = d60 / d10, by mass, are those of the balls that "
-      "drumlin bed made; of layers of each, the lowest first.");
+      "drumlin bed made; of layers of each, the lowest first. Relative density: of the void ratio, 0 for the "
+      "loosest and 1 for the densest packing of the mix, of beds that were made with drumlin bed "
+      "--relative-density.");
   return state;
 }
 

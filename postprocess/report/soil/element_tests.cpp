@@ -1,6 +1,7 @@
 #include "report/soil/element_tests.h"
 
 #include "report/soil/compression.h"
+#include "report/soil/density.h"
 #include "report/soil/oedometer.h"
 #include "report/soil/own_weight.h"
 #include "report/soil/plate.h"
@@ -10,6 +11,7 @@ namespace drumlin::post {
 
 std::vector<ElementTest> element_tests() {
   return {{"oedometer", oedometer_title, read_oedometer_page},
+          {"density", density_title, read_density_page},
           {"biaxial", biaxial_title, read_biaxial_page},
           {"triaxial", triaxial_title, read_triaxial_page},
           {"plate", plate_title, read_plate_page},

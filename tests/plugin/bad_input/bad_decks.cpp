@@ -142,7 +142,9 @@ BadGroup bed_settle() {
        {"balls", "none.data", "a file that can be read, which './drumlin bed --out none.data' makes",
         on_two_ranks}},
       {{"a case without a file", "case sand",
-        "drumlin/variable: variable case is 'sand'; allowed: base_course, gravel, gravel3d"}});
+        "drumlin/variable: variable case is 'sand'; allowed: base_course, gravel, gravel3d"},
+       {"the earlier name of a case", "case base_course",
+        "drumlin/check: variable case is 'base_course'; allowed: two_layers", on_two_ranks}});
 }
 
 BadGroup bed_place() {
@@ -184,7 +186,7 @@ BadGroup oedometer() {
   return of_deck(
       "Oedometer", "soil/in.oedometer",
       {{"radius density k kt seating ratio dt drag", "0 -1 nan", positive},
-       {"D friction prepare_friction prepare_time", "-0.5", non_negative},
+       {"D friction prepare_friction prepare_rolling prepare_time", "-0.5", non_negative},
        {"columns rows layers every ramp seed", "0 2.5", whole},
        {"stepping", "half", "second or stock", on_two_ranks},
        {"guard", "1", "on or off"},
@@ -216,6 +218,23 @@ BadGroup oedometer() {
        {"a load that is a word", "loads 25 heavy", check + "loads is 'heavy' ... allowed: " + positive},
        {"a ramp that is no multiple", "ramp 300",
         "variable ramp is '300' ... allowed: a multiple of every, which is 200"}});
+}
+
+BadGroup density() {
+  return of_deck("Density", "soil/in.density",
+                 {{"g", "1e9", below},
+                  {"beside", "-1", non_negative},
+                  {"sample", "square", "hexagonal or random", on_two_ranks}},
+                 {{"no loosest packing", "shares 0.5", "drumlin/check: variable shares is '0.5' ... above 1"},
+                  {"no densest packing", "shares 1 0.5",
+                   "drumlin/check: variable shares is '0.5' ... at most 0, so that the second", on_two_ranks},
+                  {"the loosest packing alone", "shares 1", "drumlin/check: variable shares is '1' ... 1 0"},
+                  {"looser than the loosest", "shares 1 0 1.5",
+                   "drumlin/check: variable shares is '1.5' ... at most 1, the share of the loosest"},
+                  {"denser than the densest", "shares 1 0 -0.5",
+                   "drumlin/check: variable shares is '-0.5' ... a finite number >= 0", on_two_ranks},
+                  {"a friction that the shares decide", "prepare_friction 0.3",
+                   "drumlin/variables: -var prepare_friction is '0.3'"}});
 }
 
 BadGroup spheres() {
@@ -368,6 +387,7 @@ std::vector<BadGroup> bad_variables() {
           bed_place(),
           bed(),
           oedometer(),
+          density(),
           spheres(),
           biaxial(),
           triaxial(),

@@ -255,6 +255,7 @@ TEST(BadInputDecks, KeepTheirOwnVariables) {
       {"chain/in.chain", {"roller_values", "drumlin_fault"}},
       {"benchmarks/in.spheres", {"m1", "rest", "step", "E2_over_E", "engine"}},
       {"soil/in.biaxial", {"test", "dimensions", "engine"}},
+      {"soil/in.density", {"share", "packings", "in_lammps", "of_preparation"}},
       {"soil/in.oedometer", {"test", "mass", "pitch", "h", "flat", "softer", "loose"}},
       {"soil/in.repose", {"test", "files", "moved", "along_x", "wall_friction", "rough"}},
       {"soil/in.shear", {"test", "dimensions"}},

@@ -133,6 +133,21 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
       {"bed --layer 0.2 --balls 500", "--balls is '500'; allowed: only with a layer THICKNESS:SIEVE"},
       {"bed --layer 0.2:WMM:20 --balls 500", "--balls is '500'; allowed: only with a layer THICKNESS:SIEVE"},
       {"bed --layer 0.2:WMM:20 --radius-min 0.01", "--layer is '0.2:WMM:20'; allowed: without --radius-min"},
+      {"bed --layer 0.2 --relative-density 1.2",
+       "--relative-density is '1.2'; allowed: a number from 0 to 1"},
+      {"bed --layer 0.2 --relative-density -0.1",
+       "--relative-density is '-0.1'; allowed: a number from 0 to 1"},
+      {"bed --layer 0.2 --relative-density x", "--relative-density is 'x'; allowed: a number from 0 to 1"},
+      {"bed --relative-density 0.5", "--relative-density is '0.5'; allowed: only with --layer"},
+      {"bed --packings a.csv", "--packings is 'a.csv'; allowed: only with --layer"},
+      {"bed --layer 0.2 --packings a.csv", "--packings is 'a.csv'; allowed: only with --relative-density"},
+      {"bed --layer 0.2 --relative-density 1 --packings none.csv",
+       "--packings is 'none.csv'; allowed: the density.csv of a run of inputs/soil/in.density"},
+      {"bed --layer 0.2 --relative-density 1 --relative-density 0",
+       "--relative-density is '0'; allowed: once, or once for each of the 1 layers"},
+      {"bed --layer 0.2:WMM:20 --relative-density 1", "--relative-density is '1'; allowed: with --packings"},
+      {"bed --layer 0.2 --relative-density 1 --radius-max 0.03",
+       "--relative-density is '1'; allowed: with --packings"},
       {"bed --cut 8", "--cut is '8'; allowed: only with --sieve"},
       {"bed --sieve WMM --cut 53", "--cut is '53'; allowed: a number from 0.075 and below 53 [mm]"},
       {"bed --sieve WMM --cut 0.01", "--cut is '0.01'; allowed: a number from 0.075"},
@@ -427,6 +442,37 @@ TEST_F(ToolOptions, AdviceForARollerNamesItsFile) {
       printed(outcome, {"setting low: drum 3955 kg, frame 3713 kg\n", "frequency               33 Hz\n",
                         "-var case II -var transition B -var roller " + file +
                             " -var setting low -var omega 207.34511513692635 -var stepping"}));
+}
+
+// Layers of wanted densities: the file notes how they are poured, and a layer has as many balls as fill its
+// thickness at its void ratio. Between two packings friction follows the void ratio linearly.
+TEST_F(ToolOptions, LayersArePouredForTheirRelativeDensity) {
+  std::ofstream(folder_ / "density.csv")
+      << "share,friction,rolling,void_ratio,solid_fraction,relative_density,compaction,coordination\n1,0.8,0."
+         "4,0.3,0.77,0,0.92,3\n0,0,0,0.2,0.83,1,1,4\n0.5,0.4,0.2,0.28,0.78,0.2,0.94,3\n";
+  const post::Outcome outcome =
+      well(run({"bed", "--width", "4", "--layer", "0.3", "--layer", "0.3", "--packings", "density.csv",
+                "--relative-density", "0.1", "--relative-density", "1", "--out", "balls.data"}));
+  EXPECT_TRUE(printed(outcome,
+                      "at a relative density of 0.1: void ratio 0.290 (0.300 loosest, 0.200 densest), "
+                      "poured with friction 0.6 and rolling friction 0.3"));
+  const std::string text = post::read_text(folder_ / "balls.data");
+  for (const char *note : {"relative_density 0.1,1\n", "e_loosest 0.3,0.3\n", "e_densest 0.2,0.2\n",
+                           "pour_friction 0.6,0\n", "pour_rolling 0.3,0\n"})
+    EXPECT_TRUE(contains(text, std::string("# drumlin note ") + note)) << note;
+  double area[] = {0.0, 0.0};
+  std::istringstream rows(text.substr(text.find("Atoms\n") + 6));
+  int id = 0, type = 0;
+  for (double size = 0.0, density = 0.0, x = 0.0, y = 0.0, z = 0.0;
+       rows >> id >> type >> size >> density >> x >> y >> z;)
+    area[type == 1 ? 0 : 1] += 0.25 * 3.141592653589793 * size * size;
+  EXPECT_NEAR(area[0], 4.0 * 0.3 / 1.29, 0.02);
+  EXPECT_NEAR(area[1], 4.0 * 0.3 / 1.2, 0.02);
+  EXPECT_NEAR(area[1] / area[0], 1.29 / 1.2, 0.02);
+  EXPECT_EQ(run({"bed", "--layer", "0.3", "--packings", "density.csv", "--relative-density", "1", "--out",
+                 "density.csv"})
+                .status,
+            2);
 }
 
 // The balls of a layer have its type, lie above those of the layer below, and fill the thickness that was

@@ -175,6 +175,22 @@ TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
   EXPECT_NEAR(fields->GetArray("pressure")->GetTuple1(0), 50.0 * 1.8 / area, 1e-5);
   EXPECT_NEAR(fields->GetArray("fabric")->GetComponent(0, 0), 1.0, 1e-14);
   EXPECT_NEAR(fields->GetArray("coordination")->GetTuple1(0), 1.0, 1e-14);
+  EXPECT_EQ(fields->GetArray("relative_density"), nullptr); // the run does not note its loosest packing
+}
+
+// Two discs of radius 1 m take 2 pi of 3.8 m by 2 m.
+TEST_F(VtkCommand, WritesTheRelativeDensityOfALayer) {
+  put("run/parameters.csv", "name,value\ntimestep,0.125\nlayer_tops,\"-5,9\"\ne_loosest,\"0.1,0.3\"\n"
+                            "e_densest,\"0.05,0.2\"\n");
+  well(run({"run", "--cell", "4", "--out", "new"}));
+  vtkNew<vtkXMLImageDataReader> image;
+  image->SetFileName((folder_ / "new/fields_200.vti").c_str());
+  image->Update();
+  vtkCellData *fields = image->GetOutput()->GetCellData();
+  const double solid = 2.0 * 3.141592653589793 / (3.8 * 2.0);
+  ASSERT_NE(fields->GetArray("relative_density"), nullptr);
+  EXPECT_NEAR(fields->GetArray("relative_density")->GetTuple1(0), (0.3 - (1.0 / solid - 1.0)) / 0.1, 1e-5);
+  EXPECT_NEAR(fields->GetArray("compaction")->GetTuple1(0), solid * 1.2, 1e-6);
 }
 
 // A quarter of a turn into the second cycle of 20 s. Contacts push the drum up by 400 N.

@@ -357,6 +357,9 @@ TEST_F(BedReport, IsSoundWithBedsOnly) {
   EXPECT_EQ(states.text("smallest and largest ball (mm)").front(), "14 to 53");
   EXPECT_EQ(states.text("d50 (mm)").front(), "30.1");
   EXPECT_EQ(states.text("coefficient of uniformity Cu (-)").front(), "1.75");
+  // Void ratios of 0.25 and 0.2, between 0.3 and 0.1.
+  EXPECT_EQ(states.text("relative density at the start (-)").front(), "0.25");
+  EXPECT_EQ(states.text("relative density at the end (-)").front(), "0.50");
 }
 
 TEST_F(BedReport, IsOnOnePageWithChains) {

@@ -1,0 +1,91 @@
+#include "bed/relative_density.h"
+
+#include "runs/element_rows.h"
+#include "support/csv.h"
+#include "support/range.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace drumlin::post {
+
+double relative_density(double void_ratio, double loosest, double densest) {
+  return (loosest - void_ratio) / (loosest - densest);
+}
+
+MeasuredPackings::MeasuredPackings(std::vector<Row> rows) : rows_(std::move(rows)) {
+  std::sort(rows_.begin(), rows_.end(), [](const Row &a, const Row &b) { return a.share < b.share; });
+  if (rows_.size() < 2 || rows_.front().share != 0.0 || rows_.back().share != 1.0)
+    throw std::invalid_argument(
+        "the shares 0, of the densest packing, and 1, of the loosest, and others between");
+  if (!(rows_.back().void_ratio > rows_.front().void_ratio) || !(rows_.front().void_ratio > 0.0))
+    throw std::invalid_argument("a loosest packing whose void ratio is above that of the densest one");
+  double above = rows_.front().void_ratio;
+  for (Row &row : rows_)
+    above = row.void_ratio = std::clamp(row.void_ratio, above, rows_.back().void_ratio);
+}
+
+Pouring MeasuredPackings::pouring(double relative) const {
+  const double wanted = loosest() - relative * (loosest() - densest());
+  std::size_t upper = 1;
+  while (upper + 1 < rows_.size() && rows_[upper].void_ratio < wanted)
+    ++upper;
+  const Row &low = rows_[upper - 1], &high = rows_[upper];
+  const double width = high.void_ratio - low.void_ratio;
+  const double part = width > 0.0 ? std::clamp((wanted - low.void_ratio) / width, 0.0, 1.0) : 0.0;
+  const auto between = [part](double a, double b) { return a + part * (b - a); };
+  return {
+      relative, between(low.friction, high.friction), between(low.rolling, high.rolling), wanted, loosest(),
+      densest()};
+}
+
+double LayerPackings::relative_density(double solid_fraction) const {
+  return post::relative_density(1.0 / solid_fraction - 1.0, loosest, densest);
+}
+
+std::vector<LayerPackings> noted_packings(const std::map<std::string, std::string> &parameters) {
+  const auto list = [&parameters](const char *name) -> std::vector<double> {
+    const auto found = parameters.find(name);
+    if (found == parameters.end() || found->second == "unknown" || found->second == "none") return {};
+    std::vector<double> numbers;
+    std::istringstream cells(found->second);
+    try {
+      for (std::string cell; std::getline(cells, cell, ',');)
+        numbers.push_back(number_from_text(cell));
+    } catch (const std::invalid_argument &) {
+      throw std::runtime_error(refusal(name, found->second, "numbers separated by commas"));
+    }
+    return numbers;
+  };
+  const std::vector<double> tops = list("layer_tops"), loosest = list("e_loosest"),
+                            densest = list("e_densest");
+  if (loosest.empty() || loosest.size() != densest.size() || loosest.size() != tops.size()) return {};
+  std::vector<LayerPackings> layers;
+  for (std::size_t n = 0; n < tops.size(); ++n)
+    layers.push_back({tops[n], loosest[n], densest[n]});
+  return layers;
+}
+
+const LayerPackings &layer_at(const std::vector<LayerPackings> &layers, double height) {
+  const auto found = std::find_if(layers.begin(), layers.end(),
+                                  [height](const LayerPackings &layer) { return height < layer.top; });
+  return found == layers.end() ? layers.back() : *found;
+}
+
+MeasuredPackings read_packings(const std::filesystem::path &file) {
+  std::vector<MeasuredPackings::Row> rows;
+  for (const DensityRow &row : read_density(file))
+    rows.push_back({row.share, row.friction, row.rolling, row.void_ratio});
+  try {
+    return MeasuredPackings(std::move(rows));
+  } catch (const std::invalid_argument &fault) {
+    throw std::runtime_error(fmt::format("{}: allowed: {}", file.string(), fault.what()));
+  }
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,67 @@
+// Relative density: how densely a soil is packed, between the loosest and the densest packing of its mix.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// D_r = (e_loosest - e)/(e_loosest - e_densest), of void ratios e: volume (in two dimensions area) of voids
+/// over that of balls. 0: as loose as possible; 1: as dense.
+double relative_density(double void_ratio, double loosest, double densest);
+
+/// How a layer is poured so that it gets a wanted density.
+struct Pouring {
+  double relative_density;
+  double friction, rolling; ///< of the balls while they are poured and come to rest
+  double void_ratio;        ///< that they have then
+  double loosest, densest;  ///< void ratios of their mix
+
+  double solid_fraction() const { return 1.0 / (1.0 + void_ratio); }
+};
+
+/// The packings of a mix that inputs/soil/in.density has measured.
+class MeasuredPackings {
+public:
+  struct Row {
+    double share;             ///< of the soil's friction and rolling friction
+    double friction, rolling; ///< of the balls while they were poured
+    double void_ratio;
+  };
+  /// \param rows those of the shares 0 and 1 among them, that of 1 looser than that of 0; else
+  /// std::invalid_argument. One packing is one sample: a void ratio that is below that of a smaller share, or
+  /// above that of the loosest packing, counts as equal to it.
+  explicit MeasuredPackings(std::vector<Row> rows);
+
+  double loosest() const { return rows_.back().void_ratio; }
+  double densest() const { return rows_.front().void_ratio; }
+  const Row &of_loosest() const { return rows_.back(); }
+  /// Friction and rolling friction by linear interpolation over the void ratio. \param relative from 0 to 1
+  Pouring pouring(double relative) const;
+
+private:
+  std::vector<Row> rows_; ///< in the order of shares
+};
+
+/// The void ratios of the loosest and the densest packing of a layer of a bed.
+struct LayerPackings {
+  double top; ///< m, height of the layer's surface
+  double loosest, densest;
+
+  double relative_density(double solid_fraction) const;
+  /// Degree of compaction, density over that of the densest packing.
+  double compaction(double solid_fraction) const { return solid_fraction * (1.0 + densest); }
+};
+
+/// Those of the layers of a bed, the lowest first, from the parameters of its run; empty if they are not
+/// known. std::runtime_error for parameters that no deck writes.
+std::vector<LayerPackings> noted_packings(const std::map<std::string, std::string> &parameters);
+/// The layer at a height; that above all layers is the highest one.
+const LayerPackings &layer_at(const std::vector<LayerPackings> &layers, double height);
+
+/// Reads density.csv of in.density; std::runtime_error if it is not one.
+MeasuredPackings read_packings(const std::filesystem::path &file);
+
+} // namespace drumlin::post
