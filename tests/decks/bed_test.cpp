@@ -639,6 +639,37 @@ TEST_F(Bed, EnergyErrorIsBelowAThousandthOnGroundThatAbsorbs) {
   }
 }
 
+// The heat of yielding is a share of its own, and a run that continues from a restart file goes on with it
+// and with what its contacts remember.
+TEST_F(Bed, EnergyErrorIsBelowAThousandthWithContactsThatYieldAndContinue) {
+  for (const char *stepping : steppings) {
+    const Scratch bed, stayed, left;
+    make(bed, "1", {"ball"}, {{"stepping", stepping}, {"yield", "3"}});
+    const auto shaken = [&](const Scratch &folder, const Variables &more) {
+      return well(shake(folder, with(more, {{"stepping", stepping},
+                                            {"cycles", "4"},
+                                            {"balance", "1e30"},
+                                            {"start", (bed / "ball.restart").string()}})));
+    };
+    shaken(stayed, {});
+    const double error = imbalance(stayed / "bed.csv");
+    RecordProperty(stepping, std::to_string(error));
+    EXPECT_LT(error, 1e-3) << stepping;
+    const post::Table cycles = post::read_table(stayed / "cycles.csv");
+    const double work = cycles.numbers("work_excitation").back();
+    EXPECT_GT(cycles.numbers("dissipated_yield").back(), 0.05 * work) << stepping;
+    double balance = -work;
+    for (const char *column : {"dissipated_contact", "dissipated_bond", "dissipated_friction", "kinetic",
+                               "potential", "stored_contact", "stored_bond", "dissipated_yield"})
+      balance += cycles.numbers(column).back() - cycles.numbers(column).front();
+    EXPECT_NEAR(balance, 0.0, 1e-3 * work) << stepping;
+    shaken(left, {{"time_limit", "1e-3"}});
+    shaken(left, {{"start", (left / "stopped.restart").string()}});
+    for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
+      EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file << ", " << stepping;
+  }
+}
+
 // On the default gravel a vibrating drum stays within 2 % of its diameter of 0.2 m. Without rolling friction
 // it settles more: of four seeds by 2 to 18 mm in four cycles. At rest the sides carry a part of the weight
 // by friction, as in a silo. A bed that was poured with k / 10 is wedged between them: they press it down,

@@ -125,6 +125,35 @@ TEST_P(YieldImpacts, ReboundWithTheRestitutionThatIsAskedFor) {
 
 INSTANTIATE_TEST_SUITE_P(Engines, YieldImpacts, engines_and_steppings(), engine_and_stepping);
 
+// A ball that bounces on, forgets and yields anew: a primitive plane and a mesh give the same force.
+TEST(YieldWalls, PlaneAndMeshAreOne) {
+  for (const char *stepping : {"second", "stock"}) {
+    const auto run = [stepping](const char *obstacle) {
+      return run_balls({{"normal", "yield"},
+                        {"ratio", "3"},
+                        {"obstacle", obstacle},
+                        {"stepping", stepping},
+                        {"models", "tangential coulomb"},
+                        {"dashpot", "0.1"},
+                        {"velocity2", "0.05 0 -0.5"},
+                        {"g", "9.81"},
+                        {"gap", "0.0001"},
+                        {"dt", "1e-4"},
+                        {"steps", "4000"},
+                        {"every", "10"}});
+    };
+    const BallsRun plane = run("plane"), mesh = run("mesh");
+    const std::vector<double> v = plane.series(1, &Ball::v, 2);
+    int rebounds = 0;
+    for (std::size_t n = 1; n < v.size(); ++n)
+      rebounds += v[n - 1] < 0 && v[n] > 0 ? 1 : 0;
+    EXPECT_GE(rebounds, 2) << stepping;
+    for (const std::size_t axis : {std::size_t{0}, std::size_t{2}})
+      EXPECT_LT(relative_difference(mesh.series(1, &Ball::v, axis), plane.series(1, &Ball::v, axis)), 1e-9)
+          << stepping;
+  }
+}
+
 class YieldInTheSoil : public InEngine {};
 
 /// A hexagonal lattice in the oedometer: the modulus of the closed form of soil_test, with k in first loading
