@@ -181,12 +181,13 @@ void add_study_command(CLI::App &app, Session &) {
   command->add_flag("--fresh", arguments->fresh, "forget the points of an earlier call");
   command->add_flag("--quick", arguments->quick, "few points: to see that it works");
   std::string footer =
-      "Plans of beds, in inputs/study/NAME/plan, with 95 % confidence intervals over seeds:\n"
+      "Plans of beds and samples, in inputs/study/NAME/plan, with 95 % confidence intervals over seeds:\n"
       "  box        what width, depth, walls and absorbing sides of the box change\n"
       "  fidelity   effect and time of each part of a bed's model; `drumlin advise --bed` answers "
       "from it\n"
       "  friction   the friction models coulomb and history\n"
       "  stiffness  k and D that `drumlin identify` finds, over load, force and frequency\n"
+      "  suction    what suction adds to the strength of a soil, in the biaxial test\n"
       "Others:\n";
   for (const Study &study : other_studies())
     footer += fmt::format("  {:<10} {}\n", study.name, study.summary);

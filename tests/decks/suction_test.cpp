@@ -88,6 +88,25 @@ TEST_P(Suction, ClosesTheEnergyBalance) {
     }
 }
 
+// A pair that sticks lies still: from half a million steps on it has the same bits.
+TEST_P(Suction, LetsAPairLieStillForAMillionSteps) {
+  constexpr double pull = 2000.0;
+  const Scratch folder;
+  well(run("pair", folder,
+           {{"one", "0 0.099 0.5"},
+            {"two", "0 0 0.5"},
+            {"box", "block -0.5 0.5 -0.5 0.5 0 1"},
+            {"c", "200"},
+            {"suction", number(pull)},
+            {"steps", "1000000"},
+            {"every", "500000"}}));
+  const std::vector<Frame> frames = read_dump(folder / "balls.txt");
+  ASSERT_EQ(frames.size(), 3u);
+  for (const long id : {1, 2})
+    EXPECT_EQ(frames[1].balls.at(id).x, frames[2].balls.at(id).x);
+  EXPECT_NEAR(-gap_of(frames[2].balls.at(1), frames[2].balls.at(2)), pull / k, 1e-12 * pull / k + 1e-16);
+}
+
 // The record of makes and breaks: under B, too, the contact ends at d = 0, where it pulls with F_a.
 TEST_P(Suction, IsInTheRecordOfEvents) {
   constexpr double pull = 30.0;
@@ -165,7 +184,8 @@ TEST_P(Suction, FollowsFromTheTensileStrengthOfASoil) {
   const Outcome both =
       run_deck(chain_deck(std::string("../soil/in.biaxial") + (lammps ? ".lammps" : "")),
                {{"sample", "hexagonal"}, {"tensile_strength", "1"}, {"suction", "1"}}, folder.path());
-  EXPECT_TRUE(printed(both, "ERROR: drumlin/check: variable suction is '1'; allowed: a finite number at most 0"));
+  EXPECT_TRUE(
+      printed(both, "ERROR: drumlin/check: variable suction is '1'; allowed: a finite number at most 0"));
 }
 
 } // namespace
