@@ -102,10 +102,10 @@ std::optional<MachinePart> machine_part(const MachineTolerances &tolerances, con
     if (record.frame_computed) { // a given frame mass must not change the bond of a roller
       changed.k23 = fmt::format("{:.17g}", record.bond->stiffness);
       changed.c23 = fmt::format("{:.17g}", record.bond->damping);
+      changed.bond_tolerance = fmt::format("{:.17g}", 100.0 * record.bond->tolerance);
     }
     change(changed, 1.0 + step);
-    Record again = judged(changed);
-    if (again.bond) again.bond->tolerance = record.bond->tolerance;
+    const Record again = judged(changed);
     const LawEstimate law = identify_record(again, setting).whole.law, &before = found.whole.law;
     const double factor = tolerance / step;
     part.k = std::hypot(part.k, factor * (law.k.mean - before.k.mean));
