@@ -91,15 +91,23 @@ MachineTolerances judge_tolerances(const Arguments &arguments, const Record &rec
 std::optional<MachinePart> machine_part(const MachineTolerances &tolerances, const RecordArguments &arguments,
                                         const RecordSetting &setting, const Record &record,
                                         const IdentifiedRecord &found) {
-  if (tolerances.m2 + tolerances.m3 + tolerances.me_re == 0.0) return std::nullopt;
+  // The whole motion has the bond among its unknowns.
+  const double of_bond = record.frame_computed && !found.motion ? record.bond->tolerance : 0.0;
+  if (tolerances.m2 + tolerances.m3 + tolerances.me_re + of_bond == 0.0) return std::nullopt;
   MachinePart part;
   const auto add = [&](double tolerance, const std::function<void(RecordArguments &, double)> &change) {
     if (tolerance == 0.0) return;
     constexpr double most_step = 0.01; // the effect is linear in smaller ones
     const double step = std::min(tolerance, most_step);
     RecordArguments changed = arguments;
+    if (record.frame_computed) { // a given frame mass must not change the bond of a roller
+      changed.k23 = fmt::format("{:.17g}", record.bond->stiffness);
+      changed.c23 = fmt::format("{:.17g}", record.bond->damping);
+      changed.bond_tolerance = fmt::format("{:.17g}", 100.0 * record.bond->tolerance);
+    }
     change(changed, 1.0 + step);
-    const LawEstimate law = identify_record(judged(changed), setting).whole.law, &before = found.whole.law;
+    const Record again = judged(changed);
+    const LawEstimate law = identify_record(again, setting).whole.law, &before = found.whole.law;
     const double factor = tolerance / step;
     part.k = std::hypot(part.k, factor * (law.k.mean - before.k.mean));
     part.c = std::hypot(part.c, factor * (law.c.mean - before.c.mean));
@@ -107,6 +115,10 @@ std::optional<MachinePart> machine_part(const MachineTolerances &tolerances, con
   };
   add(tolerances.m2, [&](RecordArguments &a, double by) { a.m2 = fmt::format("{:.17g}", by * *record.m2); });
   add(tolerances.m3, [&](RecordArguments &a, double by) { a.m3 = fmt::format("{:.17g}", by * *record.m3); });
+  add(of_bond, [&](RecordArguments &a, double by) {
+    a.k23 = fmt::format("{:.17g}", by * record.bond->stiffness);
+    a.c23 = fmt::format("{:.17g}", by * record.bond->damping);
+  });
   add(tolerances.me_re, [&](RecordArguments &a, double by) {
     const double Fw = by * record.said_Fw.value_or(*record.Fw);
     if (a.Fw)
@@ -204,6 +216,11 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
     text_option(
         identify, name, "NUMBER", *into,
         fmt::format("by how much {} may be off [%], 0 to 20: the effect on k, c and D is shown apart", what));
+  text_option(
+      identify, "--bond-tolerance", "NUMBER", arguments->record.bond_tolerance,
+      "by how much stiffness and damping of the bond may be off [%], 0 to 100, if the record has no "
+      "acceleration of the frame; if not given 0, or 50 for a bond that neither --roller nor --k23 and --c23 "
+      "give");
   text_option(identify, "--window", "COUNT", arguments->window, "cycles of a window, 4 or more");
   text_option(identify, "--out", "DIR", arguments->out, "folder of the results");
   identify->footer(

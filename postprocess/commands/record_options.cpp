@@ -37,7 +37,7 @@ struct RecordNumber {
   const char *help;
 };
 
-constexpr std::array<RecordNumber, 10> record_numbers = {
+constexpr std::array<RecordNumber, 12> record_numbers = {
     {{"--sampling-rate",
       &RecordArguments::sampling_rate,
       {1e-3, 1e9, "Hz"},
@@ -66,7 +66,12 @@ constexpr std::array<RecordNumber, 10> record_numbers = {
      {"--corner-frequency",
       &RecordArguments::corner_frequency,
       {1e-4, 1e4, "Hz"},
-      "of accelerometers that pass no constant, of first order [Hz]: what they take is given back"}}};
+      "of accelerometers that pass no constant, of first order [Hz]: what they take is given back"},
+     {"--k23",
+      &RecordArguments::k23,
+      {1e-3, 1e15, "N/m"},
+      "stiffness of the bond of drum and frame [N/m]; a record without the frame's acceleration needs it"},
+     {"--c23", &RecordArguments::c23, {0.0, 1e12, "N s/m"}, "damping of the bond [N s/m]"}}};
 
 using Noted = std::map<std::string, std::string>;
 
@@ -114,6 +119,32 @@ void add_roller(GivenRoller &roller, const Noted &noted, RecordOptions &options)
   if (options.Fw) setting.me_re = *options.Fw / std::pow(2.0 * pi * setting.frequency, 2);
 }
 
+/// The bond of the roller's file or of the case, of which options replace single values; with neither the
+/// usual one for the frame's mass, which half its size may be missing from.
+std::optional<KnownBond> bond_of(std::optional<double> k23, std::optional<double> c23,
+                                 const std::optional<GivenRoller> &roller,
+                                 const std::optional<std::string> &chain_case, const RecordOptions &options) {
+  if (!options.m3) return std::nullopt;
+  constexpr double of_assumed = 0.5;
+  const double m3 = *options.m3, omega3 = 2.0 * pi * roller_file::assumed_frame_frequency;
+  KnownBond bond;
+  bond.stiffness = k23.value_or(m3 * omega3 * omega3);
+  bond.damping = 2.0 * roller_file::assumed_frame_damping * std::sqrt(bond.stiffness * m3);
+  bond.tolerance = of_assumed;
+  if (roller) {
+    const Roller &machine = roller->machine;
+    bond = {machine.k23, machine.c23,
+            machine.bond_tolerance.value_or(machine.bond_assumed ? of_assumed : 0.0)};
+  } else if (chain_case) {
+    const ChainParameters p = given_case(*chain_case, Transition::B);
+    bond = {p.k23, p.c23, 0.0};
+  }
+  if (k23 && c23) bond.tolerance = 0.0;
+  bond.stiffness = k23.value_or(bond.stiffness);
+  bond.damping = c23.value_or(bond.damping);
+  return bond;
+}
+
 } // namespace
 
 void add_record_options(CLI::App &command, RecordArguments &arguments) {
@@ -154,6 +185,11 @@ void add_record_options(CLI::App &command, RecordArguments &arguments) {
   of_file("--separator", arguments.separator,
           "what stands between cells: comma, semicolon, tab, bar or blank; found if not given");
   of_file("--decimal", arguments.decimal, "decimal sign: point or comma; found if not given");
+  text_option(
+      &command, "--logger-low-pass", "HZ,ORDER", arguments.logger_low_pass,
+      "the low-pass filter of the logger: corner frequency [Hz] and order of a Butterworth filter, such "
+      "as 200,4; what it has taken is given back, and identify fits what it lets pass")
+      ->group("Measured records");
   of_file("--piece", arguments.piece,
           "which piece of a file with gaps or blank cells, counted from 1; the longest if not given");
   for (const RecordNumber &number : record_numbers)
@@ -235,6 +271,11 @@ Record judged(const RecordArguments &arguments) {
   if (options.corner && options.omega && 2.0 * pi * *options.corner > 0.5 * *options.omega)
     throw UsageError(refusal("--corner-frequency", *arguments.corner_frequency,
                              "up to half the frequency of the excitation [Hz]"));
+  if (arguments.logger_low_pass) try {
+      options.logger_filter = logger_filter_from_text(*arguments.logger_low_pass);
+    } catch (const std::invalid_argument &allowed) {
+      throw UsageError(refusal("--logger-low-pass", *arguments.logger_low_pass, allowed.what()));
+    }
   for (const std::string &text : arguments.delays)
     try {
       if (!options.delays.insert(delay_from_text(text)).second)
@@ -254,13 +295,26 @@ Record judged(const RecordArguments &arguments) {
   std::optional<GivenRoller> roller = judged(arguments.roller);
   if (arguments.chain_case) add_case(*arguments.chain_case, noted_of(paths), options);
   if (roller) add_roller(*roller, noted_of(paths), options);
+  options.bond = bond_of(number(10), number(11), roller, arguments.chain_case, options);
+  if (arguments.bond_tolerance) {
+    constexpr Range range{0.0, 100.0, "%"};
+    const double tolerance = 0.01 * number_option("--bond-tolerance", *arguments.bond_tolerance, range);
+    if (options.bond) options.bond->tolerance = tolerance;
+  }
   const std::optional<double> low_pass = std::exchange(options.low_pass, std::nullopt);
   Record record = read_record(paths, options);
+  if (options.logger_filter && (record.pieces.empty() || !options.omega || record.excitation_read))
+    throw UsageError(
+        refusal("--logger-low-pass", *arguments.logger_low_pass,
+                "only for a measured record without F_excitation, with --frequency or --roller"));
   settle_excitation(record, options);
+  if (arguments.bond_tolerance && !record.frame_computed)
+    throw UsageError(refusal("--bond-tolerance", *arguments.bond_tolerance,
+                             "only for a measured record without the frame's acceleration"));
   if (low_pass) filter_signals(record, *low_pass);
   if (roller) {
-    record.parameters.emplace("k23", number_text(roller->machine.k23));
-    record.parameters.emplace("c23", number_text(roller->machine.c23));
+    record.parameters.emplace("k23", number_text(options.bond->stiffness));
+    record.parameters.emplace("c23", number_text(options.bond->damping));
     if (record.Fw) record.parameters.emplace("Fw", number_text(*record.Fw));
     const double g = record.g.value_or(ChainParameters().g);
     for (const auto &[name, value] : roller->rows(g))

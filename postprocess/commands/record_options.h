@@ -26,7 +26,8 @@ struct RecordArguments {
   RollerArguments roller;
   std::optional<std::string> chain_case;
   std::optional<std::string> sampling_rate, frequency, phase, Fw, me_re, m2, m3, low_pass, pulse_angle,
-      corner_frequency;
+      corner_frequency, k23, c23, logger_low_pass;
+  std::optional<std::string> bond_tolerance; ///< of identify alone
 };
 
 /// Adds RECORD, --column and so on; `arguments` must outlive the app.

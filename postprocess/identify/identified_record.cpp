@@ -153,6 +153,9 @@ std::optional<std::string> contradiction(const IdentifiedRecord &record) {
 
 namespace {
 
+/// Share of the drum's acceleration that may be left of a record behind the logger's filter.
+constexpr double most_left_of_filtered = 0.003;
+
 double rms(const std::vector<double> &values) {
   double squares = 0.0;
   for (const double value : values)
@@ -191,8 +194,9 @@ bool find_phase(Record &record, const IdentificationSetting &law) {
   Record part = record;
   const auto size =
       std::min(record.size(), static_cast<std::size_t>(cycles * record.period() / record.interval) + 1);
-  for (std::vector<double> *values : {&part.time, &part.a_drum, &part.a_frame})
-    values->resize(size);
+  for (std::vector<double> *values :
+       {&part.time, &part.a_drum, &part.a_frame, &part.logged_drum, &part.logged_frame})
+    values->resize(std::min(values->size(), size));
   for (std::vector<double> *values :
        {&part.x_drum, &part.v_drum, &part.x_frame, &part.v_frame, &part.F_contact})
     values->clear();
@@ -207,11 +211,15 @@ bool find_phase(Record &record, const IdentificationSetting &law) {
       return std::nullopt;
     }
   };
+  const double in_all = rms(part.a_drum);
+  const auto follows = [&](const MotionFit &fit) {
+    return fit.is_noise || (record.logger_filter && fit.residual < most_left_of_filtered * in_all);
+  };
   std::optional<MotionFit> best;
   constexpr int trials = 8;
   for (int trial = 0; trial < trials; ++trial) {
     const std::optional<MotionFit> fit = fit_from(2.0 * pi * trial / trials, {});
-    if (fit && fit->is_noise && (!best || fit->residual < best->residual)) best = fit;
+    if (fit && follows(*fit) && (!best || fit->residual < best->residual)) best = fit;
   }
   // In unbroken contact a phase fits as well as another, up to that at which contact would just be lost.
   constexpr double degree = pi / 180.0, most = 5.0 * degree;
@@ -235,7 +243,10 @@ bool find_phase(Record &record, const IdentificationSetting &law) {
 /// what single contacts say, too.
 void take_motion(const MotionFit &motion, const Record &record, IdentifiedRecord &result) {
   LawEstimate &law = result.whole.law;
-  const auto taken = [&motion](const MeanInterval &of_motion, const MeanInterval &of_contacts) {
+  const auto taken = [&](const MeanInterval &of_motion, const MeanInterval &of_contacts) {
+    constexpr double wider = 3.0; // behind a filter single contacts say nothing of the error
+    if (record.logger_filter && !motion.is_noise)
+      return MeanInterval{of_motion.mean, wider * of_motion.half_width};
     const double off = motion.is_noise ? 0.0 : of_contacts.mean - of_motion.mean;
     return MeanInterval{of_motion.mean, std::hypot(of_motion.half_width, off)};
   };
@@ -271,6 +282,7 @@ IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &
   result.phase_known = phase_within == 0.0;
   result.positions = !signals.x_drum.empty() || !signals.v_drum.empty();
   result.frame = !record.a_frame.empty();
+  result.frame_computed = record.frame_computed;
   result.force_difference = force_difference(signals.force, record.F_contact);
   result.time = record.time;
   result.per_cycle = signals.per_cycle;
@@ -282,13 +294,14 @@ IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &
     csv_fault(record.file, 0, {}, error.what());
   }
   add_meter_values(record, result);
-  result.windows = windows_of(signals, law, result, setting.window, progress);
+  if (!record.logger_filter) // of single contacts, whose landings a filter smooths
+    result.windows = windows_of(signals, law, result, setting.window, progress);
   if (has_motion(record) && !result.positions) {
     MotionSetting of_phase;
     if (record.phase_half_width == 0.0) of_phase.phase_within = phase_within;
     if (progress) progress("the motion from contact to contact");
     if (const std::optional<MotionFit> motion = follow_motion(record, result.whole, of_phase)) {
-      constexpr double close = 0.05; // of the drum's acceleration
+      const double close = record.logger_filter ? most_left_of_filtered : 0.05; // of the drum's acceleration
       result.left = motion->residual / rms(record.a_drum);
       if (motion->is_noise || *result.left < close) take_motion(*motion, record, result);
     }
@@ -298,8 +311,17 @@ IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &
 
 } // namespace
 
-IdentifiedRecord identify_record(const Record &given, const RecordSetting &setting,
-                                 const std::function<void(const std::string &)> &progress) {
+namespace {
+
+/// Whether the whole motion of a record whose phase find_phase() took from some cycles tells it, too.
+bool tells_phase(const IdentifiedRecord &found) {
+  constexpr double most = 3.0 * pi / 180.0;
+  const bool follows = found.motion && (found.motion->is_noise || *found.left < most_left_of_filtered);
+  return follows && found.motion->phase.half_width < most;
+}
+
+IdentifiedRecord identify_from_any_phase(const Record &given, const RecordSetting &setting,
+                                         const std::function<void(const std::string &)> &progress) {
   const bool of_chain = given.file.filename() == "chain.csv";
   constexpr double usual_share = 0.2; // soil that a drum just touches is softer
   IdentificationSetting law;
@@ -308,8 +330,11 @@ IdentifiedRecord identify_record(const Record &given, const RecordSetting &setti
   law.least_force = setting.least_force.value_or(of_chain ? 0.0 : usual_share);
   if (given.F_excitation.empty()) {
     Record record = given;
-    find_phase(record, law);
-    return identify_with_phase(record, setting, law, progress);
+    if (find_phase(record, law)) {
+      IdentifiedRecord found = identify_with_phase(record, setting, law, progress);
+      if (tells_phase(found)) return found;
+    }
+    return identify_with_phase(given, setting, law, progress); // says what is missing
   }
   IdentifiedRecord found = identify_with_phase(given, setting, law, progress);
   if (!found.left || (found.motion && found.motion->is_noise)) return found;
@@ -318,7 +343,25 @@ IdentifiedRecord identify_record(const Record &given, const RecordSetting &setti
   other.Fw = other.said_Fw.value_or(*other.Fw);
   if (given.phase_half_width == 0.0 || !find_phase(other, law)) return found;
   IdentifiedRecord again = identify_with_phase(other, setting, law, progress);
-  return again.motion && again.motion->is_noise ? again : found;
+  return tells_phase(again) ? again : found;
+}
+
+} // namespace
+
+IdentifiedRecord identify_record(const Record &record, const RecordSetting &setting,
+                                 const std::function<void(const std::string &)> &progress) {
+  IdentifiedRecord result = identify_from_any_phase(record, setting, progress);
+  if (record.logger_filter && !result.motion)
+    csv_fault(
+        record.file, 0, {},
+        refusal("what the equations of motion of drum, frame, bond and soil leave of the filtered record",
+                result.left ? fmt::format("{:.3g} % of the drum's acceleration", 100.0 * *result.left)
+                            : std::string("all"),
+                fmt::format("up to {:g} %, since single contacts, whose landings a filter smooths, tell "
+                            "too little; to be checked: corner frequency, order and kind of the filter, "
+                            "masses, signs and units",
+                            100.0 * most_left_of_filtered)));
+  return result;
 }
 
 } // namespace drumlin::post

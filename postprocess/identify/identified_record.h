@@ -49,7 +49,8 @@ struct IdentifiedRecord {
   bool known_origin = false;
   bool phase_known = true; ///< no error of the exciter's phase was allowed
   bool positions = false;  ///< whether a position or velocity of the drum was used
-  bool frame = false;      ///< whether the frame's acceleration is in the record
+  bool frame = false;      ///< whether the frame's acceleration is in the record, or computed
+  bool frame_computed = false;
   double force_difference =
       -1.0; ///< RMS of force minus F_contact of the record over RMS of that; -1: not there
   /// What a meter shows for the whole record, of its even number of cycles (meter_values.h) [N/m]; apparent

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace drumlin::post {
@@ -18,6 +19,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double pi = 3.14159265358979323846;
+constexpr Eigen::Index sensors = 2;
 
 // A state: position and velocity of drum and frame, sine and cosine of the exciter's angle, and 1.
 constexpr Index of_sine = 4, of_cosine = 5, of_one = 6, size = 7;
@@ -29,7 +31,7 @@ using Square = Eigen::Matrix<double, size, size>;
 constexpr Index of_k = 4, of_c = 5, of_k23 = 6, of_c23 = 7, of_phase = 8, of_omega = 9, columns = 10;
 using Slopes = Eigen::Matrix<double, size, columns>;
 // Behind the derivatives that states have, an observation has those by offset and drift of each sensor.
-constexpr Index starts = 4, shared = columns - starts, sensors = 2, unknowns = shared + 2 * sensors;
+constexpr Index starts = 4, shared = columns - starts, unknowns = shared + 2 * sensors;
 using Shared = Eigen::Matrix<double, unknowns, 1>;
 
 // The mechanical model with the present values.
@@ -77,9 +79,62 @@ struct Model {
   }
 };
 
-// The state after a time, by the series of the exponential, with derivatives if they are asked for.
-void advance(const Model &model, bool contact, double h, State &y, Slopes *s) {
+// The logger's filter for both accelerations: sections one behind another, each with its output and, of
+// second order, the rate of that, all rates over the corner's angular frequency.
+struct Filter {
+  double corner = 0.0;         // [rad/s]; 0: no filter
+  std::vector<double> damping; // of the sections of second order
+  bool odd = false;            // a section of first order comes last
+  std::size_t warm = 0;        // samples after which it has forgotten with what it began
+
+  explicit operator bool() const { return corner > 0.0; }
+  Index order() const { return 2 * static_cast<Index>(damping.size()) + (odd ? 1 : 0); }
+  Index states() const { return sensors * order(); }
+  // Where the acceleration of a sensor comes out, and where it goes in.
+  Index output(Index sensor) const { return sensor * order() + order() - (odd ? 1 : 2); }
+  Index input(Index sensor) const { return sensor * order() + (damping.empty() ? 0 : 1); }
+
+  // The rate of the states, without what comes in.
+  template <class Matrix>
+  MatrixXd rate(const Matrix &z) const {
+    MatrixXd d(z.rows(), z.cols());
+    for (Index sensor = 0; sensor < sensors; ++sensor) {
+      Index at = sensor * order();
+      const Index first = at;
+      for (const double ratio : damping) {
+        d.row(at) = corner * z.row(at + 1);
+        d.row(at + 1) = corner * (-z.row(at) - 2.0 * ratio * z.row(at + 1));
+        if (at > first) d.row(at + 1) += corner * z.row(at - 2);
+        at += 2;
+      }
+      if (odd) d.row(at) = -corner * z.row(at);
+      if (odd && at > first) d.row(at) += corner * z.row(at - 2);
+    }
+    return d;
+  }
+  // Adds the accelerations that come in, a times the rows of speeds.
+  template <class Matrix>
+  void add_input(const Matrix &rates, double factor, MatrixXd &d) const {
+    for (Index sensor = 0; sensor < sensors; ++sensor)
+      d.row(input(sensor)) += factor * corner * rates.row(1 + 2 * sensor);
+  }
+};
+
+// The filter's states and their derivatives by the columns of the slopes.
+struct Filtered {
+  const Filter *filter = nullptr;
+  MatrixXd value, slopes;
+};
+
+// The state after a time, by the series of the exponential, with derivatives if they are asked for, and with
+// the filter's states if there are any.
+void advance(const Model &model, bool contact, double h, State &y, Slopes *s, Filtered *z = nullptr) {
   constexpr int most_terms = 40;
+  MatrixXd z_term, z_slopes;
+  if (z != nullptr) {
+    z_term = z->value;
+    z_slopes = z->slopes;
+  }
   constexpr double small = 1e-17;
   State term = y;
   Slopes slopes;
@@ -91,9 +146,20 @@ void advance(const Model &model, bool contact, double h, State &y, Slopes *s) {
       model.add_sources(term, contact, factor, next);
       slopes = next;
       *s += slopes;
+      if (z != nullptr) {
+        z_slopes = (factor * z->filter->rate(z_slopes)).eval();
+        z->filter->add_input(slopes, 1.0, z_slopes);
+        z->slopes += z_slopes;
+      }
     }
     term = (factor * model.rate(term, contact)).eval();
     y += term;
+    if (z != nullptr) {
+      z_term = (factor * z->filter->rate(z_term)).eval();
+      z->filter->add_input(term, 1.0, z_term);
+      z->value += z_term;
+      if (n < most_terms && (z_term.cwiseAbs().maxCoeff() > 1e-13 * z->value.cwiseAbs().maxCoeff())) continue;
+    }
     constexpr int least_terms = 8;
     if (n >= least_terms && term.cwiseAbs().maxCoeff() < small &&
         (s == nullptr || (slopes.cwiseAbs().array() <= small * (1.0 + s->cwiseAbs().array())).all()))
@@ -105,7 +171,29 @@ void advance(const Model &model, bool contact, double h, State &y, Slopes *s) {
 class Step {
 public:
   Step() = default;
-  Step(const Model &model, bool contact, double h) {
+  Step(const Model &model, bool contact, double h, const Filter &filter) {
+    if (filter) {
+      const Index states = filter.states();
+      of_filter_.resize(states, states);
+      for (Index i = 0; i < states; ++i) {
+        State none = State::Zero();
+        Filtered z{&filter, MatrixXd::Zero(states, 1), {}};
+        z.value(i, 0) = 1.0;
+        advance(model, contact, h, none, nullptr, &z);
+        of_filter_.col(i) = z.value;
+      }
+      into_filter_.resize(states, size);
+      into_filter_by_.assign(of_parameters, MatrixXd(states, size));
+      for (Index i = 0; i < size; ++i) {
+        State column = State::Unit(i);
+        Slopes slopes = Slopes::Zero();
+        Filtered z{&filter, MatrixXd::Zero(states, 1), MatrixXd::Zero(states, columns)};
+        advance(model, contact, h, column, &slopes, &z);
+        into_filter_.col(i) = z.value;
+        for (Index p = 0; p < of_parameters; ++p)
+          into_filter_by_[static_cast<std::size_t>(p)].col(i) = z.slopes.col(parameter(p));
+      }
+    }
     for (Index i = 0; i < size; ++i) {
       State column = State::Unit(i);
       Slopes slopes = Slopes::Zero();
@@ -116,6 +204,14 @@ public:
     }
   }
   State moved(const State &y) const { return all_ * y; }
+  // To be called before y and s move.
+  void move_filter(const State &y, const Slopes *s, Filtered &z) const {
+    z.value = (of_filter_ * z.value + into_filter_ * y).eval();
+    if (s == nullptr) return;
+    z.slopes = (of_filter_ * z.slopes + into_filter_ * *s).eval();
+    for (Index p = 0; p < of_parameters; ++p)
+      z.slopes.col(parameter(p)) += into_filter_by_[static_cast<std::size_t>(p)] * y;
+  }
   void move(const State &before, Slopes &s) const {
     // The exciter's angle depends on phase and frequency alone.
     s.topRows<of_sine>() = (all_.topLeftCorner<of_sine, of_sine>() * s.topRows<of_sine>()).eval();
@@ -131,6 +227,8 @@ private:
   static Index parameter(Index p) { return p < 4 ? of_k + p : of_omega; }
   Square all_;
   std::array<Square, of_parameters> by_;
+  MatrixXd of_filter_, into_filter_;
+  std::vector<MatrixXd> into_filter_by_;
 };
 
 // The time until contact begins or ends, which it does within h, by the secant in a shrinking bracket.
@@ -162,7 +260,7 @@ double event_within(const Model &model, bool contact, double h, const State &y) 
 }
 
 // What a small change of the state or of a parameter does behind an event, which it delays.
-void pass_event(const Model &model, bool contact, const State &y, Slopes &s) {
+void pass_event(const Model &model, bool contact, const State &y, Slopes &s, Filtered *z) {
   const State before = model.rate(y, contact), after = model.rate(y, !contact);
   const bool of_force = !model.pulls && model.pressed(y) < model.overlap(y);
   const double of_v = of_force ? model.c / model.k : 0.0;
@@ -174,12 +272,41 @@ void pass_event(const Model &model, bool contact, const State &y, Slopes &s) {
     change[of_c] += y[1] / model.k;
   }
   s -= (before - after) * (change / speed);
+  if (z != nullptr) {
+    MatrixXd jump = MatrixXd::Zero(z->value.rows(), 1);
+    z->filter->add_input(before - after, 1.0, jump);
+    z->slopes -= jump * (change / speed);
+  }
 }
 
 // Samples from `first` to before `end` that one motion follows, and its state at the first.
 struct Stretch {
   std::size_t first, end;
   Eigen::Vector4d start;
+  // Extension of the bond, without its static part, and the rate of that, as first found [m, m/s].
+  Eigen::Vector2d bond{0.0, 0.0};
+};
+
+// What is known of the bond and of its extension, as weights; 0: nothing.
+struct BondKnowledge {
+  double stiffness = 0.0, damping = 0.0;       // said
+  double of_stiffness = 0.0, of_damping = 0.0; // weights of these
+  double of_extension = 0.0, of_rate = 0.0;    // weights of what a stretch starts with
+  double off(const Model &model) const {
+    return of_stiffness * std::pow(model.k23 - stiffness, 2) + of_damping * std::pow(model.c23 - damping, 2);
+  }
+  // By how much a stretch starts with another extension, or rate of it, than was first found; the static part
+  // of the extension goes with the present stiffness.
+  static double extension_off(const Model &model, const Stretch &stretch) {
+    return stretch.start[0] - stretch.start[2] - stretch.bond[0] - model.m3 * model.g / model.k23;
+  }
+  static double rate_off(const Stretch &stretch) {
+    return stretch.start[1] - stretch.start[3] - stretch.bond[1];
+  }
+  double off(const Model &model, const Stretch &stretch) const {
+    return of_extension * std::pow(extension_off(model, stretch), 2) +
+           of_rate * std::pow(rate_off(stretch), 2);
+  }
 };
 
 // So many stretches to one each.
@@ -205,6 +332,9 @@ struct Signals {
   double per_cycle = 0.0;
   const std::vector<double> *wander = nullptr; // of the exciter's angle
   std::vector<double> force_share;             // of the exciter's force, if its angle wanders
+  Filter filter;
+  std::vector<double> drum, frame; // accelerations to start with
+  std::size_t measured() const { return a[1]->empty() ? 1 : 2; }
   double wander_at(std::size_t i) const { return wander->empty() ? 0.0 : (*wander)[i]; }
   std::size_t size() const { return a[0]->size(); }
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
@@ -224,9 +354,9 @@ Shared observed(const Row &row, std::size_t sensor, double u) {
 class Fit {
 public:
   Fit(const Signals &signals, Model model, std::vector<Stretch> stretches, double phase_weight,
-      double phase_said)
+      double phase_said, const BondKnowledge &bond)
       : signals_(&signals), model_(model), stretches_(std::move(stretches)), phase_weight_(phase_weight),
-        phase_said_(phase_said) {}
+        phase_said_(phase_said), bond_(bond) {}
 
   bool solve();
   void join(std::size_t together) { stretches_ = joined(stretches_, together); }
@@ -249,7 +379,7 @@ private:
       const double fine = std::max(64.0 * of.omega / (2.0 * pi), 1.5 * std::sqrt(of.k / of.m2));
       steps = static_cast<int>(std::ceil(signals.dt * fine));
       h = signals.dt / steps;
-      step = {Step(model, false, h), Step(model, true, h)};
+      step = {Step(model, false, h, signals.filter), Step(model, true, h, signals.filter)};
     }
     Model model;
     int steps;
@@ -272,6 +402,7 @@ private:
   Model model_;
   std::vector<Stretch> stretches_;
   double phase_weight_, phase_said_;
+  BondKnowledge bond_;
   std::vector<Equations> of_stretch_;
   Eigen::Matrix<double, unknowns, unknowns> normal_;
   Shared right_;
@@ -311,13 +442,37 @@ bool Fit::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, 
   };
   const auto most_events = static_cast<std::size_t>(
       20.0 * static_cast<double>(stretch.end - stretch.first) / signals_->per_cycle + 20.0);
-  for (std::size_t i = stretch.first; i < stretch.end; ++i) {
+  const Filter &filter = signals_->filter;
+  Filtered z{&filter, {}, {}};
+  Filtered *const behind = filter ? &z : nullptr;
+  if (filter) { // as if the accelerations had been these for long
+    z.value = MatrixXd::Zero(filter.states(), 1);
+    z.slopes = MatrixXd::Zero(filter.states(), columns);
+    const State rate = model.rate(y, contact);
+    for (Index sensor = 0; sensor < sensors; ++sensor) {
+      const Index first = sensor * filter.order();
+      for (Index at = first; at < first + filter.order(); at += 2)
+        z.value(at, 0) = rate[1 + 2 * sensor];
+    }
+  }
+  const std::size_t end = std::min(stretch.end + filter.warm, signals_->size());
+  for (std::size_t i = stretch.first; i < end; ++i) {
     if (!signals_->wander->empty()) turn_to(i, angle_at(i));
     const State here = y;
     see(here);
     const Slopes slopes = s;
     const bool touches = contact;
     const std::size_t events_before = events;
+    if (filter && i >= stretch.first + filter.warm)
+      for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
+        if (signals_->a[sensor]->empty()) continue;
+        const Index out = filter.output(static_cast<Index>(sensor));
+        const double u = u_of(i);
+        const Eigen::Matrix<double, 1, columns> row = z.slopes.row(out);
+        use(i, sensor,
+            z.value(out, 0) + model.offset[sensor] + model.drift[sensor] * u - (*signals_->a[sensor])[i], row,
+            u);
+      }
     // To the next sample with the frequency of the fit, right in the middle between them.
     if (!signals_->wander->empty() && i + 1 < signals_->size())
       turn_to(i, angle_at(i) + 0.5 * (signals_->wander_at(i + 1) - signals_->wander_at(i)));
@@ -327,21 +482,23 @@ bool Fit::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, 
       while ((model.indicator(next) > 0.0) != contact) {
         if (++events > most_events) return false;
         const double after = event_within(model, contact, left, y);
-        advance(model, contact, after, y, slopes_too ? &s : nullptr);
-        if (slopes_too) pass_event(model, contact, y, s);
+        advance(model, contact, after, y, slopes_too ? &s : nullptr, behind);
+        if (slopes_too) pass_event(model, contact, y, s, behind);
         contact = !contact;
         left -= after;
         next = y;
         advance(model, contact, left, next, nullptr);
       }
+      if (filter && left == h) step[contact ? 1 : 0].move_filter(y, slopes_too ? &s : nullptr, z);
       if (slopes_too && left == h) step[contact ? 1 : 0].move(y, s);
-      if (slopes_too && left < h) {
+      if ((slopes_too || filter) && left < h) {
         next = y;
-        advance(model, contact, left, next, &s);
+        advance(model, contact, left, next, slopes_too ? &s : nullptr, behind);
       }
       y = next;
     }
     if (!y.allFinite()) return false;
+    if (filter) continue;
     // Next to an event a sample is taken for that side of it which is nearer: else the acceleration's jump
     // would hold the event between two samples while the parameters still change.
     const bool next_to_event = events > events_before || changed;
@@ -377,8 +534,8 @@ bool Fit::equations() {
   samples_ = 0;
   const Motion motion(*signals_, model_);
   constexpr Index all_unknowns = starts + unknowns;
+  double prior = bond_.off(model_);
   for (std::size_t n = 0; n < stretches_.size(); ++n) {
-    samples_ += stretches_[n].end - stretches_[n].first;
     Eigen::Matrix<double, all_unknowns, all_unknowns> square;
     Eigen::Matrix<double, all_unknowns, 1> right, line;
     square.setZero();
@@ -386,6 +543,7 @@ bool Fit::equations() {
     const bool followed =
         follow(motion, stretches_[n], true,
                [&](std::size_t, std::size_t sensor, double residual, const auto &row, double u) {
+                 if (sensor == 0) ++samples_;
                  const double weight = 1.0 / (level_[sensor] * level_[sensor]);
                  line << row.template head<starts>().transpose(), observed(row, sensor, u);
                  square.noalias() += (weight * line) * line.transpose();
@@ -393,6 +551,19 @@ bool Fit::equations() {
                  squares_[sensor] += residual * residual;
                });
     if (!followed) return false;
+    for (const bool of_rate : {false, true}) {
+      const double weight = of_rate ? bond_.of_rate : bond_.of_extension;
+      line.setZero();
+      line[of_rate ? 1 : 0] = 1.0;
+      line[of_rate ? 3 : 2] = -1.0;
+      if (!of_rate) line[of_k23] = model_.m3 * model_.g / (model_.k23 * model_.k23);
+      square += (weight * line) * line.transpose();
+      right += weight *
+               (of_rate ? BondKnowledge::rate_off(stretches_[n])
+                        : BondKnowledge::extension_off(model_, stretches_[n])) *
+               line;
+    }
+    prior += bond_.off(model_, stretches_[n]);
     of_stretch_[n] = {square.topLeftCorner<starts, starts>(), square.topRightCorner<starts, unknowns>(),
                       right.head<starts>()};
     normal_ += square.bottomRightCorner<unknowns, unknowns>();
@@ -406,14 +577,22 @@ bool Fit::equations() {
       for (Index i = 0; i < 2; ++i)
         normal_(shared + 2 * static_cast<Index>(sensor) + i, shared + 2 * static_cast<Index>(sensor) + i) +=
             1.0;
-  cost_ = phase_weight_ * std::pow(model_.phase - phase_said_, 2);
+  const std::pair<Index, double> of_bond[] = {{of_k23, bond_.of_stiffness}, {of_c23, bond_.of_damping}};
+  for (const auto &[column, weight] : of_bond) {
+    normal_(column - starts, column - starts) += weight;
+    right_[column - starts] +=
+        weight * (column == of_k23 ? model_.k23 - bond_.stiffness : model_.c23 - bond_.damping);
+  }
+  cost_ = prior + phase_weight_ * std::pow(model_.phase - phase_said_, 2);
   for (std::size_t sensor = 0; sensor < sensors; ++sensor)
     cost_ += squares_[sensor] / (level_[sensor] * level_[sensor]);
   return true;
 }
 
 std::optional<double> Fit::cost(const Model &model, const std::vector<Stretch> &stretches) {
-  double sum = phase_weight_ * std::pow(model.phase - phase_said_, 2);
+  double sum = bond_.off(model) + phase_weight_ * std::pow(model.phase - phase_said_, 2);
+  for (const Stretch &stretch : stretches)
+    sum += bond_.off(model, stretch);
   const Motion motion(*signals_, model);
   for (const Stretch &stretch : stretches)
     if (!follow(motion, stretch, false,
@@ -427,9 +606,9 @@ std::optional<double> Fit::cost(const Model &model, const std::vector<Stretch> &
 bool Fit::settle_levels(bool *settled) {
   const std::array<double, sensors> before = level_;
   for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
-    const double freedom =
-        static_cast<double>(samples_) -
-        0.5 * static_cast<double>(starts * static_cast<Index>(stretches_.size()) + unknowns);
+    const double freedom = static_cast<double>(samples_) -
+                           static_cast<double>(starts * static_cast<Index>(stretches_.size()) + unknowns) /
+                               static_cast<double>(signals_->measured());
     constexpr double least = 1e-9; // m/s2
     level_[sensor] = std::max(least, std::sqrt(squares_[sensor] / std::max(1.0, freedom)));
   }
@@ -524,10 +703,10 @@ std::optional<MatrixXd> Fit::covariance() {
     const Eigen::Matrix<double, starts, unknowns> share = own[n].solve(of_stretch_[n].mixed);
     std::size_t cycle = 0;
     scores.emplace_back(Shared::Zero());
+    const std::size_t first = stretches_[n].first + signals_->filter.warm;
     follow(motion, stretches_[n], true,
            [&](std::size_t i, std::size_t sensor, double residual, const auto &row, double u) {
-             const auto now =
-                 static_cast<std::size_t>(static_cast<double>(i - stretches_[n].first) / signals_->per_cycle);
+             const auto now = static_cast<std::size_t>(static_cast<double>(i - first) / signals_->per_cycle);
              if (now != cycle) scores.emplace_back(Shared::Zero());
              cycle = now;
              Shared all = observed(row, sensor, u);
@@ -539,7 +718,8 @@ std::optional<MatrixXd> Fit::covariance() {
   for (const Shared &score : scores)
     middle += score * score.transpose();
   const MatrixXd of_cycles = plain * middle * plain;
-  const double chance = 4.0 * std::sqrt(2.0 / static_cast<double>(scores.size()));
+  // Noise that has passed the filter is correlated from sample to sample.
+  const double chance = signals_->filter ? 0.0 : 4.0 * std::sqrt(2.0 / static_cast<double>(scores.size()));
   MatrixXd result = plain;
   for (const Index i : {of_k - starts, of_c - starts})
     if (of_cycles(i, i) > (1.0 + chance) * plain(i, i)) result = of_cycles;
@@ -550,7 +730,15 @@ std::optional<MatrixXd> Fit::covariance() {
 bool Fit::is_noise() const {
   constexpr std::size_t lags = 3, bins = 24;
   std::array<std::array<double, lags + 1>, sensors> products{};
-  std::array<std::array<double, bins>, sensors> sums{}, counts{};
+  std::array<std::array<double, bins>, sensors> sums{}, counts{}, of_cycle{}, squares_of_cycles{};
+  double last_cycle = -1.0;
+  const auto close_cycle = [&] {
+    for (std::size_t sensor = 0; sensor < sensors; ++sensor)
+      for (std::size_t bin = 0; bin < bins; ++bin) {
+        squares_of_cycles[sensor][bin] += of_cycle[sensor][bin] * of_cycle[sensor][bin];
+        of_cycle[sensor][bin] = 0.0;
+      }
+  };
   double count = 0.0;
   std::array<double, sensors> largest{};
   const Motion motion(*signals_, model_);
@@ -567,22 +755,35 @@ bool Fit::is_noise() const {
              double cycle = 0.0;
              const double part = std::modf(model_.omega * signals_->time(i) / (2.0 * pi), &cycle);
              const auto bin = std::min(bins - 1, static_cast<std::size_t>(std::fabs(part) * bins));
+             if (cycle != last_cycle) close_cycle();
+             last_cycle = cycle;
+             of_cycle[sensor][bin] += residual;
              sums[sensor][bin] += residual;
              counts[sensor][bin] += 1.0;
              if (sensor == 0) count += 1.0;
            });
   }
+  close_cycle();
   for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
     if (!(products[sensor][0] > 0.0)) continue;
     constexpr double most = 4.5; // standard deviations
     constexpr double outlier = 6.5;
     if (largest[sensor] > outlier * std::sqrt(products[sensor][0] / count)) return false;
+    const auto freedom = static_cast<double>(bins);
+    if (signals_->filter) { // noise that has passed it is correlated, but not from cycle to cycle
+      double pattern = 0.0;
+      for (std::size_t bin = 0; bin < bins; ++bin)
+        if (squares_of_cycles[sensor][bin] > 0.0)
+          pattern += sums[sensor][bin] * sums[sensor][bin] / squares_of_cycles[sensor][bin];
+      constexpr double together = 4.0; // neighbouring bins
+      if (pattern > freedom + most * std::sqrt(2.0 * together * freedom)) return false;
+      continue;
+    }
     for (std::size_t lag = 1; lag <= lags; ++lag)
       if (std::fabs(products[sensor][lag]) > most / std::sqrt(count) * products[sensor][0]) return false;
     double squares = 0.0;
     for (std::size_t bin = 0; bin < bins; ++bin)
       if (counts[sensor][bin] > 0.0) squares += sums[sensor][bin] * sums[sensor][bin] / counts[sensor][bin];
-    const auto freedom = static_cast<double>(bins);
     if (squares * count > (freedom + most * std::sqrt(2.0 * freedom)) * products[sensor][0]) return false;
   }
   return true;
@@ -618,7 +819,9 @@ std::vector<Stretch> first_stretches(const Signals &signals, const Identificatio
 
 // Bond and motion of the frame: m3 (a3 + g) is the force of a spring and a dashpot, whose length and speed
 // are integrals of measured accelerations and, of each stretch, two unknowns.
-bool start_frame(const Signals &signals, Model &model, std::vector<Stretch> &stretches) {
+bool start_frame(const Signals &signals, Model &model, std::vector<Stretch> &stretches,
+                 const BondKnowledge &bond_known) {
+  const std::vector<double> &a_drum = signals.drum, &a_frame = signals.frame;
   Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   const auto rows_of = [&](const Stretch &stretch, Eigen::MatrixX2d &bond, Eigen::MatrixX2d &own,
@@ -629,13 +832,13 @@ bool start_frame(const Signals &signals, Model &model, std::vector<Stretch> &str
     own.resize(rows, 2);
     force.resize(rows);
     for (std::size_t j = 0; j < between.size(); ++j)
-      between[j] = (*signals.a[0])[stretch.first + j] - (*signals.a[1])[stretch.first + j];
+      between[j] = a_drum[stretch.first + j] - a_frame[stretch.first + j];
     const Integrals way = integrals(between, {0, between.size()}, signals.dt);
     for (Index j = 0; j < rows; ++j) {
       const auto at = static_cast<std::size_t>(j);
       bond.row(j) << way.twice[at], way.once[at];
       own.row(j) << 1.0, signals.dt * static_cast<double>(j);
-      force[j] = model.m3 * ((*signals.a[1])[stretch.first + at] + model.g);
+      force[j] = model.m3 * (a_frame[stretch.first + at] + model.g);
     }
   };
   Eigen::MatrixX2d bond, own;
@@ -647,7 +850,8 @@ bool start_frame(const Signals &signals, Model &model, std::vector<Stretch> &str
     square += left.transpose() * left;
     right += left.transpose() * force;
   }
-  const Eigen::Vector2d law = square.ldlt().solve(right);
+  Eigen::Vector2d law = square.ldlt().solve(right);
+  if (bond_known.of_stiffness > 0.0) law = {bond_known.stiffness, bond_known.damping};
   if (!law.allFinite() || !(law[0] > 0.0)) return false;
   model.k23 = law[0];
   model.c23 = law[1];
@@ -658,6 +862,7 @@ bool start_frame(const Signals &signals, Model &model, std::vector<Stretch> &str
     const double speed = found[1] / model.k23; // of the drum over the frame
     stretch.start[3] = stretch.start[1] - speed;
     stretch.start[2] = stretch.start[0] - (found[0] - model.c23 * speed) / model.k23;
+    stretch.bond = {stretch.start[0] - stretch.start[2] - model.m3 * model.g / model.k23, speed};
   }
   return true;
 }
@@ -709,6 +914,15 @@ bool is_better(const Solved &one, const Solved &other) {
   return one.cost() < other.cost();
 }
 
+// The largest distance of a time of the record from equal steps [s].
+double irregularity(const Record &record) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < record.size(); ++i)
+    most = std::max(
+        most, std::fabs(record.time[i] - record.time.front() - record.interval * static_cast<double>(i)));
+  return most;
+}
+
 } // namespace
 
 std::optional<MotionFit> fit_motion(const Record &record, const Identification &start,
@@ -717,7 +931,18 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
       record.a_frame.empty() || !(start.law.k.mean > 0.0))
     return std::nullopt;
   Signals signals;
-  signals.a = {&record.a_drum, &record.a_frame};
+  const std::vector<double> none;
+  signals.a = {&record.a_drum, record.frame_computed ? &none : &record.a_frame};
+  signals.drum = record.a_drum;
+  signals.frame = record.a_frame;
+  if (record.logger_filter) {
+    signals.a = {&record.logged_drum, record.frame_computed ? &none : &record.logged_frame};
+    signals.filter.corner = 2.0 * pi * record.logger_filter->corner;
+    signals.filter.damping = record.logger_filter->sections();
+    signals.filter.odd = record.logger_filter->order % 2 == 1;
+    signals.filter.warm =
+        static_cast<std::size_t>(std::ceil(record.logger_filter->memory() / record.interval));
+  }
   signals.wander = &record.wander;
   for (std::size_t i = 0; i < record.wander.size(); ++i)
     signals.force_share.push_back(record.force_share(i));
@@ -738,7 +963,33 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
   model.k = start.law.k.mean;
   model.c = std::max(start.law.c.mean, 1e-3 * std::sqrt(model.k * model.m2));
   std::vector<Stretch> stretches = first_stretches(signals, start);
-  if (stretches.size() < 2 || !start_frame(signals, model, stretches)) return std::nullopt;
+  if (signals.filter) { // the filter passes constants as they are
+    const std::vector<double> *const before[] = {&record.a_drum, &record.a_frame};
+    for (std::size_t sensor = 0; sensor < signals.measured(); ++sensor)
+      model.offset[sensor] = (std::accumulate(signals.a[sensor]->begin(), signals.a[sensor]->end(), 0.0) -
+                              std::accumulate(before[sensor]->begin(), before[sensor]->end(), 0.0)) /
+                             static_cast<double>(record.size());
+    // What the last stretches begin with is seen only when the filter has forgotten what was before.
+    while (stretches.size() > 1 &&
+           static_cast<double>(stretches.back().first + signals.filter.warm) + signals.per_cycle >
+               static_cast<double>(signals.size())) {
+      stretches.pop_back();
+      stretches.back().end = signals.size();
+    }
+  }
+  BondKnowledge bond;
+  if (record.frame_computed) {
+    const auto weight = [](double half_width) { return 3.84 / (half_width * half_width); };
+    constexpr double exact = 1e-6, transient = 0.1; // what may still swing, of the static extension
+    bond.stiffness = record.bond->stiffness;
+    bond.damping = record.bond->damping;
+    bond.of_stiffness = weight(std::max(exact, record.bond->tolerance) * bond.stiffness);
+    bond.of_damping = weight(std::max(exact, record.bond->tolerance) * std::max(bond.damping, 1.0));
+    const double extension = transient * model.m3 * model.g / bond.stiffness;
+    bond.of_extension = weight(extension);
+    bond.of_rate = weight(extension * std::sqrt(bond.stiffness / model.m3));
+  }
+  if (stretches.size() < 2 || !start_frame(signals, model, stretches, bond)) return std::nullopt;
   const double phase_weight =
       setting.phase_within ? 3.84 / std::pow(std::max(*setting.phase_within, 1e-7), 2) : 0.0;
 
@@ -751,7 +1002,7 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
   double difference = std::numeric_limits<double>::infinity();
   for (const bool pulls : {false, true}) {
     model.pulls = pulls;
-    std::optional<Solved> one = solved(Fit(signals, model, first, phase_weight, model.phase));
+    std::optional<Solved> one = solved(Fit(signals, model, first, phase_weight, model.phase, bond));
     if (!one) continue;
     join_stretches(*one, few);
     if (best) difference = std::fabs(one->cost() - best->cost());
@@ -761,17 +1012,22 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
   if (first.size() < stretches.size()) {
     const std::size_t together = std::max<std::size_t>(1, (first.size() + best->fit.stretches().size() - 1) /
                                                               best->fit.stretches().size());
-    best = solved(Fit(signals, best->fit.model(), joined(stretches, together), phase_weight, model.phase));
+    best =
+        solved(Fit(signals, best->fit.model(), joined(stretches, together), phase_weight, model.phase, bond));
     if (!best) return std::nullopt;
     join_stretches(*best, many);
   }
   MotionFit result;
   const double freedom =
-      2.0 * static_cast<double>(best->fit.samples()) -
+      static_cast<double>(signals.measured() * best->fit.samples()) -
       static_cast<double>(starts * static_cast<Index>(best->fit.stretches().size()) + unknowns);
   const double t = t_factor(std::max(1.0, freedom));
+  // The time between samples is known as well as the times are written; k goes with its square.
+  const double computed = 1e-9, of_time = 2.0 * irregularity(record) / (2.0 * signals.half_length) + computed;
   const auto interval = [&](double mean, Index column) {
-    return MeanInterval{mean, t * std::sqrt(best->covariance(column - starts, column - starts))};
+    const bool of_soil = column == of_k || column == of_c;
+    return MeanInterval{mean, std::hypot(t * std::sqrt(best->covariance(column - starts, column - starts)),
+                                         of_soil ? 2.0 * of_time * mean : 0.0)};
   };
   const Model &found = best->fit.model();
   result.k = interval(found.k, of_k);

@@ -15,15 +15,20 @@ namespace {
 
 constexpr double degrees = 57.29577951308232; // per radian
 
-// A value with its interval in a unit, with two digits of the half width.
+// A value with its interval in a unit, with two digits of the half width, but not more decimals than anyone
+// needs; the half width is then rounded up.
 std::string with_interval(const MeanInterval &value, double unit) {
   if (!std::isfinite(value.mean)) return no_value;
   const double mean = value.mean / unit;
   const double half = value.half_width / unit;
   if (!(half > 0.0) || !std::isfinite(half)) return fmt::format("{:.6g} +- {:.2g}", mean, half);
-  constexpr int most_decimals = 6;
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, most_decimals);
-  return fmt::format("{:.{}f} +- {:.{}f}", mean, decimals, half, decimals);
+  constexpr int most_decimals = 4, most_digits = 6;
+  const auto power = [](double size) { return static_cast<int>(std::floor(std::log10(size))); };
+  const int most = std::clamp(most_digits - 1 - power(std::max(std::fabs(mean), half)), 0, most_decimals);
+  const int decimals = std::clamp(1 - power(half), 0, most);
+  const double shown =
+      1 - power(half) > most ? std::ceil(half * std::pow(10.0, most)) / std::pow(10.0, most) : half;
+  return fmt::format("{:.{}f} +- {:.{}f}", mean, decimals, shown, decimals);
 }
 
 bool has_flights(const Identification &found) {
@@ -52,10 +57,11 @@ std::string source_sentence(const IdentifiedRecord &record) {
   if (record.motion)
     return fmt::format(
         "From the whole motion of drum and frame: one motion follows {:.4g} cycles and leaves "
-        "{:.2g} m/s2 of the drum's acceleration{}; the bond has {:.4g} MN/m and {:.4g} kN s/m.",
+        "{:.2g} m/s2 of the drum's acceleration{}; the bond has {:.4g} MN/m and {:.4g} kN s/m{}.",
         record.motion->cycles, record.motion->residual,
         record.motion->is_noise ? ", which is noise" : ", more than noise, which widens the intervals",
-        record.motion->bond_stiffness / 1e6, record.motion->bond_damping / 1e3);
+        record.motion->bond_stiffness / 1e6, record.motion->bond_damping / 1e3,
+        record.frame_computed ? ", and the frame, which no sensor measures, follows from it" : "");
   std::string text = record.positions ? "From accelerations, position and velocity of the drum"
                                       : "From accelerations alone, integrated over each contact";
   if (record.positions)
@@ -68,7 +74,10 @@ std::string source_sentence(const IdentifiedRecord &record) {
         " Drum, frame, bond and a soil of constant k and c do not follow the whole motion: {:.2g} % "
         "of the drum's acceleration are left, which the intervals do not contain.",
         100.0 * *record.left);
-  if (!record.frame) text += " No acceleration of the frame: it counts as zero.";
+  if (record.frame_computed)
+    text += " The acceleration of the frame is computed from that of the drum through the bond.";
+  else if (!record.frame)
+    text += " No acceleration of the frame: it counts as zero.";
   return text;
 }
 
@@ -319,8 +328,10 @@ void write_identification_page(const std::filesystem::path &out, const Identifie
   page.figure(loop_figure(record));
   page.section("Residuals");
   page.figure(residual_figure(record));
-  page.section("Along the record");
-  page.figure(window_figure(record));
+  if (!record.windows.empty()) {
+    page.section("Along the record");
+    page.figure(window_figure(record));
+  }
   if (compared != nullptr) {
     page.section("Chain and record");
     add_lumped_comparison(page, {*compared}, 4);

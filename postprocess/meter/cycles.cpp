@@ -259,8 +259,8 @@ void take_sums(const StepSums &sums, double period, std::vector<MeterCycle> &cyc
 
 /// Gives the harmonics the size that they had before the filter.
 void undo_filter(const Record &record, MeterRecord &result) {
+  result.filtered = record.low_pass != 0.0 || record.logger_filter;
   if (record.low_pass == 0.0) return;
-  result.filtered = true;
   const double frequency = 1.0 / record.period();
   MeterAmplitudes gain{};
   for (std::size_t j = 0; j < gain.size(); ++j)

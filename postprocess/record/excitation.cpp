@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -302,7 +303,8 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
   constexpr double shortest = 0.05, longest = 3.0; // cycles
   const auto least = std::max<std::size_t>(5, static_cast<std::size_t>(shortest * per_cycle));
   const double noise = noise_level(forces.without);
-  constexpr double wide = 0.03, narrow = 0.001; // of Fw
+  constexpr double narrow = 0.001;                        // of Fw
+  const double wide = record.logger_filter ? 0.06 : 0.03; // a filter makes landings swing
   double width = wide * forces.Fw + 3.0 * noise;
   Exciter exciter = best_phase(forces, *record.omega, ratio, width, least);
   FlightFit fit;
@@ -550,9 +552,18 @@ const char *turned_sign(Record record) {
       value = -value;
   };
   turn(record.a_drum);
+  if (record.frame_computed) turn(record.a_frame);
   if (flights_of(record)) return "a_drum";
+  if (record.frame_computed) return nullptr;
   turn(record.a_frame);
   return !record.a_frame.empty() && flights_of(record) ? "a_drum and a_frame" : nullptr;
+}
+
+std::string force_of_flights(double force) {
+  return fmt::format(
+      "within {:g} % of {:.4g} N, with which no force would act on the drum while it flies; to be "
+      "checked: eccentric moment or force, masses of drum and frame, signs and units",
+      100.0 * machine, force);
 }
 
 /// Refuses a force of the exciter with which the drum does not fly, if it does with another one.
@@ -562,9 +573,7 @@ void check_force(const Record &record) {
     if (!fit || std::fabs(fit->ratio.mean - 1.0) < machine) continue;
     csv_fault(record.file, 0, {},
               refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
-                      fmt::format("{:.6g} N, which the flights of the drum need with these masses, signs and "
-                                  "units",
-                                  fit->ratio.mean * *record.Fw)));
+                      force_of_flights(fit->ratio.mean * *record.Fw)));
   }
 }
 
@@ -573,7 +582,7 @@ void check_drift(Record &record) {
   const std::vector<double> &signal = drum_signal(record);
   constexpr std::size_t windows = 12;
   const double cycles = std::floor(record.cycles() / windows);
-  if (!record.phase || !record.pulse.empty() || signal.empty() || cycles < 2.0) return;
+  if (!record.pulse.empty() || signal.empty() || cycles < 2.0) return;
   const auto length = static_cast<std::size_t>(cycles * record.period() / record.interval);
   std::vector<double> times, phases;
   for (std::size_t w = 0; w < windows; ++w) {
@@ -591,7 +600,7 @@ void check_drift(Record &record) {
   constexpr double most = 6.0; // degrees
   const double wander = std::sqrt(squares / static_cast<double>(windows)) / degree;
   constexpr double told = 0.3;
-  if (wander > told && wander <= most) {
+  if (record.phase && wander > told && wander <= most) {
     record.phase_within = 2.0 * wander * degree;
     record.notes.push_back(fmt::format("the phase of the drum's motion wanders by {:.2g} degrees over the "
                                        "record; that of the exciter counts "
@@ -599,17 +608,44 @@ void check_drift(Record &record) {
                                        wander, 2.0 * wander));
   }
   if (wander > most)
-    csv_fault(
-        record.file, 0, {},
-        refusal("the phase of the drum's motion",
-                fmt::format("wandering by {:.3g} degrees over the record", wander),
-                fmt::format("one frequency, up to {:g} degrees, where no flights tell the exciter's phase; "
-                            "a part of the record may have it",
-                            most)));
+    csv_fault(record.file, 0, {},
+              refusal("the phase of the drum's motion",
+                      fmt::format("wandering by {:.3g} degrees over the record", wander),
+                      fmt::format(
+                          "up to {:g} degrees where no flights of the drum tell one phase of the exciter; a "
+                          "shorter part of the record may have one frequency, and pulses once per "
+                          "revolution (--column pulse) follow one that drifts",
+                          most)));
+}
+
+/// Restores what the logger's filter has taken; std::runtime_error if it has taken too much.
+void undo_logger_filter(Record &record, const LoggerFilter &filter) {
+  constexpr double harmonics = 3.0;
+  const double needed = harmonics * *record.omega / (2.0 * pi),
+               whole = restored_up_to(filter, record.interval);
+  if (whole < needed)
+    csv_fault(record.file, 0, {},
+              refusal("the logger's filter", fmt::format("{:g} Hz of order {}", filter.corner, filter.order),
+                      fmt::format("one that lets the record be restored up to {:.4g} Hz, three times the "
+                                  "frequency; here it is {:.4g} Hz",
+                                  needed, whole)));
+  record.logger_filter = filter;
+  record.logged_drum = record.a_drum;
+  record.logged_frame = record.a_frame;
+  for (const auto values : {&Record::x_drum, &Record::v_drum, &Record::a_drum, &Record::x_frame,
+                            &Record::v_frame, &Record::a_frame, &Record::F_contact})
+    record.*values = restored(record.*values, record.interval, filter);
+  record.notes.push_back(
+      fmt::format("what the logger's filter has taken is given back up to {:.4g} Hz", whole));
 }
 
 void take_flights(Record &record, const RecordOptions &options) {
   std::optional<FlightFit> fit = flights_of(record);
+  // Behind a filter that smooths too much the motion from contact to contact has to tell the phase.
+  if (record.logger_filter && (!fit || std::fabs(fit->ratio.mean - 1.0) > machine)) {
+    check_drift(record);
+    return;
+  }
   if (fit && options.me_re) { // the force that belongs to the frequency of the flights
     record.omega = fit->omega.mean;
     record.Fw = *options.me_re * *record.omega * *record.omega;
@@ -633,12 +669,9 @@ void take_flights(Record &record, const RecordOptions &options) {
       fit->phase.mean / degree, fit->phase.half_width / degree, fit->ratio.mean, fit->ratio.half_width,
       fit->offset.mean, fit->offset.half_width));
   if (std::fabs(fit->ratio.mean - 1.0) > machine + fit->ratio.half_width)
-    csv_fault(
-        record.file, 0, {},
-        refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
-                fmt::format("{:.6g} N to {:g} %, which the flights of the drum need with these masses, signs "
-                            "and units",
-                            fit->ratio.mean * *record.Fw, 100.0 * machine)));
+    csv_fault(record.file, 0, {},
+              refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
+                      force_of_flights(fit->ratio.mean * *record.Fw)));
   if (said) {
     constexpr double most = 20.0; // degrees
     const double off = std::remainder(fit->phase.mean - *said, 2.0 * pi) / degree;
@@ -649,7 +682,8 @@ void take_flights(Record &record, const RecordOptions &options) {
                                     fit->phase.mean / degree, fit->phase.half_width / degree)));
   }
   // Flights know the force better than a data sheet does.
-  if (std::fabs(fit->ratio.mean - 1.0) > 2.0 * fit->ratio.half_width) {
+  if (std::fabs(fit->ratio.mean - 1.0) > 2.0 * fit->ratio.half_width && !record.logger_filter &&
+      !(record.frame_computed && record.bond->tolerance > 0.0)) {
     record.said_Fw = record.Fw;
     record.Fw = fit->ratio.mean * *record.Fw;
   }
@@ -662,7 +696,52 @@ void take_flights(Record &record, const RecordOptions &options) {
 
 } // namespace
 
+void compute_frame(Record &record) {
+  if (record.pieces.empty() || record.a_drum.empty() || !record.a_frame.empty() || !record.omega ||
+      !record.m3 || !record.bond)
+    return;
+  // The extension of the bond without its static part, and its rate. The drum's acceleration is linear
+  // between samples; one step of Runge and Kutta for each.
+  const double spring = record.bond->stiffness / *record.m3, dashpot = record.bond->damping / *record.m3;
+  using Extension = std::array<double, 2>;
+  const auto rate = [spring, dashpot](const Extension &w, double a) {
+    return Extension{w[1], a - spring * w[0] - dashpot * w[1]};
+  };
+  const auto moved = [](const Extension &w, const Extension &by, double h) {
+    return Extension{w[0] + h * by[0], w[1] + h * by[1]};
+  };
+  const double h = record.interval;
+  const auto step = [&](const Extension &w, double from, double to) {
+    const double middle = 0.5 * (from + to);
+    const Extension k1 = rate(w, from), k2 = rate(moved(w, k1, 0.5 * h), middle),
+                    k3 = rate(moved(w, k2, 0.5 * h), middle), k4 = rate(moved(w, k3, h), to);
+    return Extension{w[0] + h / 6.0 * (k1[0] + 2.0 * k2[0] + 2.0 * k3[0] + k4[0]),
+                     w[1] + h / 6.0 * (k1[1] + 2.0 * k2[1] + 2.0 * k3[1] + k4[1])};
+  };
+  // The first cycles several times, after which it moves as if it had always done so.
+  constexpr double pairs = 30.0;
+  constexpr int repeats = 8;
+  const double cycles = 2.0 * std::min(pairs, std::floor(0.5 * record.cycles()));
+  const auto first =
+      std::min(record.size() - 1, static_cast<std::size_t>(std::lround(cycles * record.period() / h)));
+  Extension w{0.0, 0.0};
+  for (int n = 0; n < repeats; ++n)
+    for (std::size_t i = 0; i < first; ++i)
+      w = step(w, record.a_drum[i], record.a_drum[i + 1]);
+  record.a_frame.reserve(record.size());
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    record.a_frame.push_back(spring * w[0] + dashpot * w[1]);
+    if (i + 1 < record.size()) w = step(w, record.a_drum[i], record.a_drum[i + 1]);
+  }
+  record.frame_computed = true;
+  record.notes.push_back(
+      fmt::format("no acceleration of the frame: it is computed from that of the drum through the bond of "
+                  "{:.4g} MN/m and {:.4g} kN s/m, known to {:.2g} %",
+                  record.bond->stiffness / 1e6, record.bond->damping / 1e3, 100.0 * record.bond->tolerance));
+}
+
 void settle_excitation(Record &record, const RecordOptions &options) {
+  if (record.excitation_read) compute_frame(record);
   if (record.time.empty() || !options.omega || record.excitation_read || record.pieces.empty()) return;
   check_range(record, record.a_drum, "a_drum");
   check_range(record, record.a_frame, "a_frame");
@@ -670,12 +749,15 @@ void settle_excitation(Record &record, const RecordOptions &options) {
     take_frequency(record);
   else
     take_pulses(record, options);
+  if (options.logger_filter) undo_logger_filter(record, *options.logger_filter);
   if (options.corner)
-    for (const auto values : {&Record::a_drum, &Record::a_frame})
-      if (!(record.*values).empty())
-        record.*values = without_high_pass(record.*values, record.interval, *options.corner, *record.omega);
+    for (std::vector<double> *values :
+         {&record.a_drum, &record.a_frame, &record.logged_drum, &record.logged_frame})
+      if (!values->empty())
+        *values = without_high_pass(*values, record.interval, *options.corner, *record.omega);
   remove_offset(record, &Record::a_drum, "a_drum");
   remove_offset(record, &Record::a_frame, "a_frame");
+  compute_frame(record);
   if (options.me_re) record.Fw = *options.me_re * *record.omega * *record.omega;
   take_flights(record, options);
   compute_excitation(record);

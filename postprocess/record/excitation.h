@@ -40,6 +40,11 @@ struct FlightFit {
 /// or if no contacts with a force above zero stand between them.
 std::optional<FlightFit> flights_of(const Record &record, double ratio = 1.0);
 
+/// Computes the acceleration of the frame of a measured record that has none from that of the drum, through
+/// the bond: the frame is a mass on a spring and a dashpot whose foot moves with the drum. What swings freely
+/// at the start has died away. Needs omega, m3 and the bond.
+void compute_frame(Record &record);
+
 /// Takes the exciter's frequency, and if the drum flies its phase, from a measured record whose nominal
 /// frequency is given; removes offsets of accelerations; notes what was found. A record of a run, or with a
 /// measured F_excitation, stays as it is. std::runtime_error of one line: no line near the nominal frequency;

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unsupported/Eigen/FFT>
 
 #include <algorithm>
 #include <array>
@@ -170,6 +171,7 @@ void take_options(Record &record, const RecordOptions &options) {
   if (options.m3) record.m3 = options.m3;
   if (options.me_re && record.omega) record.Fw = *options.me_re * *record.omega * *record.omega;
   record.tolerances = options.tolerances;
+  record.bond = options.bond;
 }
 
 /// A column of a file that is read into a signal.
@@ -742,6 +744,90 @@ Record read_record(const std::vector<fs::path> &files, const RecordOptions &opti
   if (options.low_pass) filter_signals(record, *options.low_pass);
   compute_excitation(record);
   return record;
+}
+
+std::vector<double> LoggerFilter::sections() const {
+  std::vector<double> ratios;
+  for (int n = 1; n <= order / 2; ++n)
+    ratios.push_back(std::sin((2.0 * n - 1.0) * pi / (2.0 * order)));
+  return ratios;
+}
+
+std::complex<double> LoggerFilter::response(double frequency) const {
+  const std::complex<double> s(0.0, frequency / corner);
+  std::complex<double> below = order % 2 == 1 ? 1.0 + s : 1.0;
+  for (const double ratio : sections())
+    below *= s * s + 2.0 * ratio * s + 1.0;
+  return 1.0 / below;
+}
+
+double LoggerFilter::memory() const {
+  constexpr double forgotten = 13.8; // exp(-13.8) is 1e-6
+  return forgotten / (2.0 * pi * corner * (order == 1 ? 1.0 : std::sin(pi / (2.0 * order))));
+}
+
+LoggerFilter logger_filter_from_text(const std::string &text) {
+  constexpr const char *form = "HZ,ORDER as 200,4: the corner frequency from 0.001 to 1e9 Hz and the order "
+                               "from 1 to 8 of a Butterworth filter";
+  const std::size_t comma = text.find(',');
+  constexpr double most_order = 8.0, least_corner = 1e-3, most_corner = 1e9;
+  LoggerFilter filter;
+  try {
+    filter.corner = number_from_text(text.substr(0, comma));
+    const double order = comma == std::string::npos ? 0.0 : number_from_text(text.substr(comma + 1));
+    if (!(order >= 1.0 && order <= most_order && order == std::floor(order)) ||
+        !(filter.corner >= least_corner && filter.corner <= most_corner))
+      throw std::invalid_argument(form);
+    filter.order = static_cast<int>(order);
+  } catch (const std::invalid_argument &) {
+    throw std::invalid_argument(form);
+  }
+  return filter;
+}
+
+namespace {
+constexpr double restored_share = 0.7; // of the frequencies up to where a fifth is left
+}
+
+double restored_up_to(const LoggerFilter &filter, double interval) {
+  constexpr double of_power = 24.0, of_sampling = 0.45; // gain of 0.2
+  const double fifth = filter.corner * std::pow(of_power, 0.5 / filter.order);
+  return restored_share * std::min(fifth, of_sampling / interval);
+}
+
+std::vector<double> restored(const std::vector<double> &values, double interval, const LoggerFilter &filter) {
+  if (values.empty()) return {};
+  // Both ends are continued by their point reflections, and these are joined by a line.
+  const auto margin = std::min(values.size() - 1, static_cast<std::size_t>(filter.memory() / interval) + 1);
+  std::size_t length = 1;
+  while (length < values.size() + 2 * margin + 2)
+    length *= 2;
+  std::vector<double> all;
+  all.reserve(length);
+  for (std::size_t i = margin; i > 0; --i)
+    all.push_back(2.0 * values.front() - values[i]);
+  all.insert(all.end(), values.begin(), values.end());
+  for (std::size_t i = 1; i <= margin; ++i)
+    all.push_back(2.0 * values.back() - values[values.size() - 1 - i]);
+  const double from = all.back(), to = all.front();
+  const auto gap = static_cast<double>(length - all.size() + 1);
+  for (double n = 1.0; all.size() < length; n += 1.0)
+    all.push_back(from + (to - from) * n / gap);
+  std::vector<std::complex<double>> waves;
+  Eigen::FFT<double> transform;
+  transform.fwd(waves, all);
+  const double whole = restored_up_to(filter, interval), none = whole / restored_share;
+  for (std::size_t n = 0; n < length; ++n) {
+    const bool upper = n > length / 2;
+    const double frequency =
+        static_cast<double>(upper ? length - n : n) / (static_cast<double>(length) * interval);
+    const double fade = std::clamp((frequency - whole) / (none - whole), 0.0, 1.0);
+    const std::complex<double> response = filter.response(frequency);
+    waves[n] *= 0.5 * (1.0 + std::cos(pi * fade)) / (upper ? std::conj(response) : response);
+  }
+  transform.inv(all, waves);
+  const auto first = all.begin() + static_cast<std::ptrdiff_t>(margin);
+  return {first, first + static_cast<std::ptrdiff_t>(values.size())};
 }
 
 double low_pass_gain(double frequency, double interval, double cutoff) {

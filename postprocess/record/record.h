@@ -7,6 +7,7 @@
 #include "runs/chain_files.h"
 #include "support/measured_table.h"
 
+#include <complex>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -27,6 +28,26 @@ struct RecordPiece {
 struct MachineTolerances {
   double m2 = 0.0, m3 = 0.0; ///< of the masses of drum and frame
   double me_re = 0.0;        ///< of the eccentric moment, and so of Fw
+};
+
+/// The bond of drum and frame as known without the record.
+struct KnownBond {
+  double stiffness = 0.0; ///< [N/m]
+  double damping = 0.0;   ///< [N s/m]
+  double tolerance = 0.0; ///< relative, of both, 95 %; 0: exact
+};
+
+/// A Butterworth low-pass of the measuring chain, which delays what it passes.
+struct LoggerFilter {
+  double corner = 0.0; ///< where 1/sqrt(2) of an amplitude is left [Hz]
+  int order = 1;       ///< 1 to 8
+
+  /// Damping ratios of its sections of second order; an odd order has one of first order besides.
+  std::vector<double> sections() const;
+  /// What it makes of a wave [Hz].
+  std::complex<double> response(double frequency) const;
+  /// The time after which it has forgotten what was before, to 1e-6 [s].
+  double memory() const;
 };
 
 /// A record. Signals that the file does not have are empty; F_bond is not read.
@@ -61,6 +82,13 @@ struct Record : ChainHistory {
   std::optional<double> m3;      ///< mass of the frame [kg]
   std::optional<double> g;       ///< gravity [m/s2]
   MachineTolerances tolerances;  ///< of m2, m3 and Fw, as the roller's file has them
+  std::optional<KnownBond> bond; ///< of the options
+  /// The file has no acceleration of the frame: a_frame is what the bond makes of that of the drum.
+  bool frame_computed = false;
+  /// The filter of the logger. a_drum and a_frame then are restored, but for what is too fast; these are as
+  /// logged.
+  std::optional<LoggerFilter> logger_filter;
+  std::vector<double> logged_drum, logged_frame;
 
   /// Time of one cycle of the excitation [s]; std::runtime_error if `omega` is not known.
   double period() const;
@@ -107,6 +135,8 @@ struct RecordOptions {
   std::optional<double> corner;
   std::optional<double> low_pass; ///< cut-off frequency of low_passed(), for all signals [Hz]
   MachineTolerances tolerances;   ///< of m2, m3 and me_re
+  std::optional<KnownBond> bond;  ///< of drum and frame
+  std::optional<LoggerFilter> logger_filter;
 };
 
 /// The least number of excitation cycles, and of samples per cycle, of a record that is read with `omega`
@@ -148,6 +178,16 @@ std::pair<std::string, double> delay_from_text(const std::string &text);
 /// [rad/s] stay out of it.
 std::vector<double> without_high_pass(const std::vector<double> &values, double interval, double corner,
                                       double omega);
+
+/// "HZ,ORDER": a filter of the logger, as "200,4". std::invalid_argument says what is allowed.
+LoggerFilter logger_filter_from_text(const std::string &text);
+
+/// The highest frequency that restored() restores in full [Hz]; it fades out up to 1/0.7 of that, where a
+/// fifth of an amplitude has passed the filter, or with half the sampling rate.
+double restored_up_to(const LoggerFilter &filter, double interval);
+
+/// Values as they were before a filter, size and phase, but for what is faster than restored_up_to().
+std::vector<double> restored(const std::vector<double> &values, double interval, const LoggerFilter &filter);
 
 /// Share of an amplitude that low_passed() leaves at a frequency [Hz].
 double low_pass_gain(double frequency, double interval, double cutoff);

@@ -45,6 +45,7 @@ struct Roller {
   double m2_tolerance = 0.0;            ///< relative tolerance of m2
   double m3_tolerance = 0.0;            ///< of m3
   double me_re_tolerance = 0.0;         ///< of m_e r_e
+  std::optional<double> bond_tolerance; ///< of k23 and c23
   bool bond_assumed = false;            ///< no bond in the file: the default is taken
   std::vector<RollerSetting> settings;  ///< at least one, in the order of the file
 };
@@ -102,6 +103,7 @@ inline std::vector<Quantity> quantities() {
           {"drum_mass_tolerance", percent, 0.5, true, false},
           {"frame_mass_tolerance", percent, 0.5, true, false},
           {"eccentric_moment_tolerance", percent, 0.5, true, false},
+          {"bond_tolerance", percent, 1.0, true, false},
           {"frequency", frequency, 1e4, false, true},
           {"eccentric_moment", {{"kg m", 1.0}, {"kgm", 1.0}, {"kg mm", 1e-3}}, 1e6, false, true},
           {"force", {{"N", 1.0}, {"kN", 1e3}}, 1e9, false, true},
@@ -242,6 +244,7 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
   roller.m2_tolerance = lines.of("drum_mass_tolerance").value_or(0.0);
   roller.m3_tolerance = lines.of("frame_mass_tolerance").value_or(0.0);
   roller.me_re_tolerance = lines.of("eccentric_moment_tolerance").value_or(0.0);
+  roller.bond_tolerance = lines.of("bond_tolerance");
 
   const auto apart = [](double a, double b) { return std::fabs(a - b) > agreement * std::max(a, b); };
   const auto contradict = [&](const std::string &what, double value, const std::string &unit,

@@ -70,12 +70,12 @@ TEST_F(RollerFile, ADataSheetGivesMassesMomentAndBond) {
 }
 
 TEST_F(RollerFile, TakesMassesUnitsToleranceAndSettings) {
-  const Roller roller =
-      read("\xEF\xBB\xBF"
-           "drum_mass 6 t\r\nframe_mass 3500 kg\r\nbond_stiffness 3.1 MN/m\r\n"
-           "bond_damping 31 kN s/m\r\ndrum_mass_tolerance 1 %\r\neccentric_moment_tolerance 3 %\r\n"
-           "setting high\r\nfrequency 30 Hz\r\neccentric_moment 11.4 kg m\r\n"
-           "setting low\r\nfrequency 35 Hz\r\namplitude 0.9 mm\r\n");
+  const Roller roller = read("\xEF\xBB\xBF"
+                             "drum_mass 6 t\r\nframe_mass 3500 kg\r\nbond_stiffness 3.1 MN/m\r\n"
+                             "bond_damping 31 kN s/m\r\ndrum_mass_tolerance 1 "
+                             "%\r\neccentric_moment_tolerance 3 %\r\nbond_tolerance 25 %\r\n"
+                             "setting high\r\nfrequency 30 Hz\r\neccentric_moment 11.4 kg m\r\n"
+                             "setting low\r\nfrequency 35 Hz\r\namplitude 0.9 mm\r\n");
   EXPECT_EQ(roller.m2, 6000.0);
   EXPECT_EQ(roller.m3, 3500.0);
   EXPECT_EQ(roller.k23, 3.1e6);
@@ -84,6 +84,7 @@ TEST_F(RollerFile, TakesMassesUnitsToleranceAndSettings) {
   EXPECT_DOUBLE_EQ(roller.m2_tolerance, 0.01);
   EXPECT_EQ(roller.m3_tolerance, 0.0);
   EXPECT_DOUBLE_EQ(roller.me_re_tolerance, 0.03);
+  EXPECT_DOUBLE_EQ(roller.bond_tolerance.value_or(0.0), 0.25);
   EXPECT_EQ(setting_of(roller, "high", file_).me_re, 11.4);
   EXPECT_DOUBLE_EQ(setting_of(roller, "low", file_).me_re, 5.4);
   EXPECT_THROW(setting_of(roller, "", file_), std::invalid_argument);

@@ -232,8 +232,48 @@ TEST_F(IdentifyCommand, RefusesAResultThatContradictsItself) {
   EXPECT_TRUE(printed(well(identify(anyway)), "The result contradicts itself: c is -8."));
 }
 
+// Without the frame's acceleration it follows through the bond, here the roller's own; the answer has no more
+// digits than anyone needs. The same record with a bond that nobody gave is told with what that costs.
+TEST_F(IdentifyCommand, NeedsNoSensorOnTheFrame) {
+  post::ChainParameters p = low_CA3500();
+  p.k = 6e7;
+  const post::ChainHistory history = post::solve_closed_form(p, 60, 60).history;
+  std::string text = "time,a_drum\n";
+  for (std::size_t i = 20 * 60; i < history.size(); ++i)
+    text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i])});
+  post::write_files({{scratch_ / "drum.csv", text}});
+  std::vector<std::string> words = {"drum.csv", "--phase", "0", "--out", "found"};
+  words.insert(words.end(), roller.begin(), roller.end());
+  const auto k_of = [&](const std::vector<std::string> &more, const char *says) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    const std::string answer = well(identify(all)).output;
+    EXPECT_NE(answer.find(says), std::string::npos) << answer;
+    const std::size_t line = answer.find("  k = ");
+    const std::string of_k = answer.substr(line, answer.find(" +-", line) - line);
+    EXPECT_LE(of_k.size() - of_k.find('.'), 5U) << of_k;
+    const post::Table table = post::read_table(scratch_ / "found/identify.csv");
+    return std::pair(table.numbers("k [N/m]").front(), table.numbers("k_half_width [N/m]").front());
+  };
+  const auto exact = k_of({"--bond-tolerance", "0"}, "known to 0 %");
+  EXPECT_NEAR(exact.first, p.k, 1e-3 * p.k);
+  const auto by_hand = k_of({"--k23", std::to_string(p.k23), "--c23", std::to_string(p.c23)}, "known to 0 %");
+  EXPECT_NEAR(by_hand.first, p.k, 1e-3 * p.k);
+  const auto unknown = k_of({}, "known to 30 %");
+  EXPECT_GE(unknown.second, exact.second);
+  words.insert(words.end(), {"--bond-tolerance", "101"});
+  expect_refused(words, "--bond-tolerance is '101'; allowed: ");
+}
+
 TEST_F(IdentifyCommand, RefusesBadInputInOneLine) {
   write_run(scratch_ / "run");
+  expect_refused({"run", "--bond-tolerance", "10"}, "--bond-tolerance is '10'; allowed: only for a measured");
+  expect_refused({"run", "--logger-low-pass", "200,4"}, "--logger-low-pass is '200,4'; allowed: only for a");
+  for (const char *filter : {"200", "200,0", "200,9", "200,2.5", "-1,4", "0,4", "x,4", "200,", "nan,4", ","})
+    expect_refused({"run", "--logger-low-pass", filter},
+                   std::string("--logger-low-pass is '") + filter + "'; allowed: HZ,ORDER as 200,4");
+  expect_refused({"run", "--k23", "0"}, "--k23 is '0'; allowed: ");
+  expect_refused({"run", "--c23", "-1"}, "--c23 is '-1'; allowed: ");
   expect_refused({}, "RECORD");
   expect_refused({"nowhere"}, "nowhere");
   expect_refused({"run", "--window", "3"}, "--window is '3'; allowed: ");

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -221,6 +222,36 @@ TEST_F(MeterCommand, MeasuredRecord) {
   words.back() = "20";
   EXPECT_TRUE(
       meter(words).says("the cut-off frequency is '20'; allowed: one that leaves a tenth of the second"));
+}
+
+// The same signal behind the low-pass of a logger, by the poles of a Butterworth filter of fourth order: it
+// leaves 0.986 of the second harmonic, and shifts the phases.
+TEST_F(MeterCommand, GivesBackWhatTheLoggersFilterHasTaken) {
+  const auto response = [](double frequency) {
+    const std::complex<double> s(0.0, frequency / 90.0);
+    std::complex<double> passed = 1.0;
+    for (const double angle : {M_PI / 8.0, 3.0 * M_PI / 8.0})
+      passed /= s * s + 2.0 * std::sin(angle) * s + 1.0;
+    return passed;
+  };
+  std::string text = "Time,Acc Z\n";
+  for (int i = 0; i < 2001; ++i) {
+    const std::complex<double> wave = std::polar(1.0, 2.0 * M_PI * 29.0 * 1e-3 * i);
+    const double value = (20.0 * response(29.0) * wave + 7.0 * response(58.0) * wave * wave).imag();
+    text += number_text(i) + "," + number_text(-value / 9.80665) + "\n";
+  }
+  write_files({{folder_ / "field.csv", text}});
+  std::vector<std::string> words = {"field.csv", "--same", "0.1", "--window", "28"};
+  words.insert(words.end(), as_measured.begin(), as_measured.end());
+  const auto cmv = [&] {
+    well(meter(words));
+    return read_table(folder_ / "results/meter/meter.csv").numbers("CMV [-]").back();
+  };
+  EXPECT_NEAR(cmv(), 300.0 * 7.0 / 20.0 * std::abs(response(58.0) / response(29.0)), 0.3);
+  words.insert(words.end(), {"--logger-low-pass", "90,4"});
+  EXPECT_NEAR(cmv(), 105.0, 0.3);
+  words.back() = "50,4";
+  EXPECT_TRUE(meter(words).says("the logger's filter is '50 Hz of order 4'; allowed: one that lets"));
 }
 
 TEST_F(MeterCommand, ShowsWhatItUnderstands) {

@@ -129,6 +129,110 @@ TEST(MotionFit, TellsThePhaseOfShortFlights) {
   EXPECT_NEAR(std::remainder(found.motion->phase.mean, 2.0 * M_PI), 0.0, 0.01);
 }
 
+// No sensor on the frame, whose motion follows from that of the drum: through the true bond, or one that is
+// known to 30 %.
+TEST(MotionFit, NeedsNoSensorOnTheFrame) {
+  std::mt19937_64 random(11);
+  int held = 0, made = 0;
+  for (const double k : {40e6, 60e6, 110e6})
+    for (const double off : {1.0, 0.75, 1.25}) {
+      SCOPED_TRACE("k " + std::to_string(k) + ", bond times " + std::to_string(off));
+      const ChainParameters p = roller(k, 0.3, 29.3, made % 2 == 0 ? Transition::B : Transition::A);
+      Record record = measured(p, 50, 40, 0.01 * g0, random).record;
+      record.a_frame.clear();
+      record.bond = KnownBond{off * p.k23, off * p.c23, off == 1.0 ? 0.0 : 0.3};
+      const IdentifiedRecord found = identified(record, p, 1.01);
+      ASSERT_TRUE(found.motion && found.motion->is_noise);
+      const LawEstimate &law = found.whole.law;
+      EXPECT_NEAR(law.k.mean, p.k, 1.7 * law.k.half_width);
+      EXPECT_NEAR(law.c.mean, p.damping(), 1.7 * law.c.half_width);
+      EXPECT_LT(law.k.half_width, 0.01 * p.k);
+      ++made;
+      held += std::fabs(law.k.mean - p.k) <= law.k.half_width ? 1 : 0;
+      held += std::fabs(law.c.mean - p.damping()) <= law.c.half_width ? 1 : 0;
+    }
+  EXPECT_GE(held, 2 * made - 3);
+}
+
+/// Sections of second order of an analogue Butterworth filter by the bilinear transform, at a rate that is so
+/// high that this hardly changes it; begins with the first value.
+std::vector<double> butterworth(std::vector<double> values, double corner_over_rate, int order) {
+  const double K = std::tan(M_PI * corner_over_rate);
+  for (int m = 1; m <= order / 2; ++m) {
+    const double q = 2.0 * std::sin((2.0 * m - 1.0) * M_PI / (2.0 * order)), d = 1.0 + q * K + K * K;
+    double x1 = values[0], x2 = x1, y1 = x1, y2 = x1;
+    for (double &value : values) {
+      const double x = value;
+      value = (K * K * (x + 2.0 * x1 + x2) - 2.0 * (K * K - 1.0) * y1 - (1.0 - q * K + K * K) * y2) / d;
+      x2 = x1;
+      x1 = x;
+      y2 = y1;
+      y1 = value;
+    }
+  }
+  return values;
+}
+
+// A logger whose low-pass smooths the landings: what it lets pass is fitted. With another order than it has
+// the record is refused.
+TEST(MotionFit, FitsWhatTheLoggersFilterLetsPass) {
+  std::mt19937_64 random(13);
+  constexpr int fine = 40, per_cycle = 36;
+  for (const auto &[k, transition, corner, order, noise] :
+       {std::tuple{60e6, Transition::B, 200.0, 4, 0.01}, std::tuple{45e6, Transition::A, 120.0, 2, 0.01},
+        std::tuple{100e6, Transition::B, 250.0, 6, 0.005}}) {
+    SCOPED_TRACE("k " + std::to_string(k) + ", corner " + std::to_string(corner));
+    const ChainParameters p = roller(k, 0.3, 29.3, transition);
+    // As if by a logger of the fine rate, whose noise is larger by the root of the ratio of rates.
+    Record record = measured(p, 42, per_cycle * fine, std::sqrt(fine) * noise * g0, random).record;
+    for (std::vector<double> *values : {&record.a_drum, &record.a_frame}) {
+      const std::vector<double> all = butterworth(*values, corner * record.interval, order);
+      values->clear();
+      for (std::size_t i = 2 * per_cycle * fine; i < all.size(); i += fine)
+        values->push_back(all[i]);
+    }
+    record.interval *= fine;
+    record.time.clear();
+    for (std::size_t i = 0; i < record.a_drum.size(); ++i)
+      record.time.push_back(record.interval * static_cast<double>(i));
+    record.pieces = {{0.0, record.time.back(), record.size()}};
+    const auto found_with = [&](const LoggerFilter &filter) {
+      RecordOptions options;
+      options.omega = 1.01 * p.omega;
+      options.me_re = p.Fw / (p.omega * p.omega);
+      options.logger_filter = filter;
+      Record settled = record;
+      settled.omega = options.omega;
+      settle_excitation(settled, options);
+      return identify_record(settled, {});
+    };
+    const LawEstimate law = found_with({corner, order}).whole.law;
+    EXPECT_NEAR(law.k.mean, p.k, 1.7 * law.k.half_width);
+    EXPECT_NEAR(law.c.mean, p.damping(), 1.7 * law.c.half_width);
+    EXPECT_LT(law.k.half_width, 0.005 * p.k);
+    EXPECT_LT(law.c.half_width, 0.01 * p.damping());
+    EXPECT_THROW(found_with({corner, order + 2}), std::runtime_error);
+    EXPECT_THROW(found_with({45.0, order}), std::runtime_error);
+  }
+}
+
+// Without noise the times, written in steps of a microsecond, limit what can be known.
+TEST(MotionFit, IntervalsContainTheErrorOfTheTimes) {
+  std::mt19937_64 random(17);
+  for (const double k : {40e6, 60e6, 75e6, 110e6}) {
+    SCOPED_TRACE("k " + std::to_string(k));
+    const ChainParameters p = roller(k, 0.3, 29.3, Transition::B);
+    Record record = measured(p, 40, 37, 0.0, random).record;
+    for (double &time : record.time)
+      time = 1e-6 * std::floor(1e6 * time);
+    record.interval = (record.time.back() - record.time.front()) / static_cast<double>(record.size() - 1);
+    const LawEstimate law = identified(record, p, 1.01).whole.law;
+    EXPECT_NEAR(law.k.mean, p.k, law.k.half_width);
+    EXPECT_NEAR(law.c.mean, p.damping(), law.c.half_width);
+    EXPECT_LT(law.k.half_width, 0.01 * p.k);
+  }
+}
+
 // Where contact is not lost nothing tells the phase, whatever the equations of motion can be made to follow.
 TEST(MotionFit, TellsNoPhaseInUnbrokenContact) {
   std::mt19937_64 random(5);

@@ -259,6 +259,16 @@ TEST(Excitation, RefusesRecordsThatContradictWhatWasSaid) {
          "made.csv: the number of pulses is '");
   expect(message([](Record &r, RecordOptions &) { r.pulse.assign(r.size(), 1.0); }),
          "made.csv: pulse is '1'; allowed: a signal that rises once in each revolution");
+  // A frequency that drifts, without flights and without pulses.
+  expect(message([&roller](Record &r, RecordOptions &) {
+           for (std::size_t i = 0; i < r.size(); ++i) {
+             const double angle =
+                 roller.omega() * r.time[i] + 0.5 * std::sin(2.0 * M_PI * r.time[i] / r.time.back());
+             r.a_drum[i] = 30.0 * std::sin(angle);
+             r.a_frame[i] = 3.0 * std::sin(angle - 0.5);
+           }
+         }),
+         "made.csv: the phase of the drum's motion is 'wandering by ");
   expect(message([](Record &r, RecordOptions &) { r.a_frame.assign(r.size(), 0.5); }),
          "made.csv: a_frame is '0.5'; allowed: values that change");
 }
