@@ -327,6 +327,8 @@ BadGroup check() {
        "variable k is '2'; allowed: a finite number below 2, which is twice m"},
       {"not above", "@ k 2 above 2", "variable k is '2'; allowed: a finite number above 2"},
       {"more than at most", "@ k 2.5 at_most 2", "variable k is '2.5'; allowed: a finite number at most 2"},
+      {"less than at least", "@ k 0.5 at_least 1",
+       "variable k is '0.5'; allowed: a finite number at least 1"},
       {"a limit for a word", "@ k nan below 2", "variable k is 'nan' ... below 2"},
       {"multiple of nothing", "@ k 1 multiple_of", "rule multiple_of, the other variable's name is missing"},
       {"no multiple", "@ k 10 multiple_of n 4", "variable k is '10' ... a multiple of n, which is 4"},
