@@ -2,6 +2,7 @@
 
 #include "identify/motion_fit.h"
 #include "meter/values.h"
+#include "record/excitation.h"
 #include "support/csv.h"
 #include "support/range.h"
 
@@ -103,6 +104,7 @@ DrumSignals signals_of(const Record &record, bool accelerations_only) {
   need(record, !record.a_drum.empty(), "the column a_drum", "the acceleration of the drum");
   need(record, record.m2.has_value(), "m2", "the mass of the drum in parameters.csv, or --m2");
   need(record, record.m3.has_value(), "m3", "the mass of the frame in parameters.csv, or --m3");
+  if (record.F_excitation.empty() && record.omega) refuse_drift(record);
   need(
       record, !record.F_excitation.empty(), "the excitation force",
       "a column F_excitation, or --frequency with --Fw or --me-re, and --phase or --column pulse, since no "

@@ -577,12 +577,12 @@ void check_force(const Record &record) {
   }
 }
 
-/// Refuses a frequency that varies so much that one phase does not describe the record.
-void check_drift(Record &record) {
+/// By how much the phase of the drum's motion wanders over the record (RMS) [degrees]; 0 if it is too short.
+double wander_of(const Record &record) {
   const std::vector<double> &signal = drum_signal(record);
   constexpr std::size_t windows = 12;
   const double cycles = std::floor(record.cycles() / windows);
-  if (!record.pulse.empty() || signal.empty() || cycles < 2.0) return;
+  if (!record.pulse.empty() || signal.empty() || cycles < 2.0) return 0.0;
   const auto length = static_cast<std::size_t>(cycles * record.period() / record.interval);
   std::vector<double> times, phases;
   for (std::size_t w = 0; w < windows; ++w) {
@@ -597,16 +597,14 @@ void check_drift(Record &record) {
   double squares = 0.0;
   for (std::size_t w = 0; w < windows; ++w)
     squares += std::pow(phases[w] - line.intercept.mean - line.slope.mean * times[w], 2);
+  return std::sqrt(squares / static_cast<double>(windows)) / degree;
+}
+
+} // namespace
+
+void refuse_drift(const Record &record) {
   constexpr double most = 6.0; // degrees
-  const double wander = std::sqrt(squares / static_cast<double>(windows)) / degree;
-  constexpr double told = 0.3;
-  if (record.phase && wander > told && wander <= most) {
-    record.phase_within = 2.0 * wander * degree;
-    record.notes.push_back(fmt::format("the phase of the drum's motion wanders by {:.2g} degrees over the "
-                                       "record; that of the exciter counts "
-                                       "as known to {:.2g} degrees",
-                                       wander, 2.0 * wander));
-  }
+  const double wander = wander_of(record);
   if (wander > most)
     csv_fault(record.file, 0, {},
               refusal("the phase of the drum's motion",
@@ -616,6 +614,23 @@ void check_drift(Record &record) {
                           "shorter part of the record may have one frequency, and pulses once per "
                           "revolution (--column pulse) follow one that drifts",
                           most)));
+}
+
+namespace {
+
+/// Refuses a frequency that varies so much that a given phase does not describe the record.
+void check_drift(Record &record) {
+  if (!record.phase) return; // the whole motion may tell it
+  refuse_drift(record);
+  constexpr double told = 0.3; // degrees
+  const double wander = wander_of(record);
+  if (wander > told) {
+    record.phase_within = 2.0 * wander * degree;
+    record.notes.push_back(fmt::format("the phase of the drum's motion wanders by {:.2g} degrees over the "
+                                       "record; that of the exciter counts "
+                                       "as known to {:.2g} degrees",
+                                       wander, 2.0 * wander));
+  }
 }
 
 /// Restores what the logger's filter has taken; std::runtime_error if it has taken too much.

@@ -45,6 +45,10 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio = 1.0);
 /// at the start has died away. Needs omega, m3 and the bond.
 void compute_frame(Record &record);
 
+/// Refuses a record of which no flights and no pulses tell the exciter's phase if the phase of the drum's
+/// motion wanders by more than a steady frequency explains; std::runtime_error of one line.
+void refuse_drift(const Record &record);
+
 /// Takes the exciter's frequency, and if the drum flies its phase, from a measured record whose nominal
 /// frequency is given; removes offsets of accelerations; notes what was found. A record of a run, or with a
 /// measured F_excitation, stays as it is. std::runtime_error of one line: no line near the nominal frequency;

@@ -177,14 +177,14 @@ std::vector<double> butterworth(std::vector<double> values, double corner_over_r
 // the record is refused.
 TEST(MotionFit, FitsWhatTheLoggersFilterLetsPass) {
   std::mt19937_64 random(13);
-  constexpr int fine = 40, per_cycle = 36;
+  constexpr int fine = 50, per_cycle = 36;
   for (const auto &[k, transition, corner, order, noise] :
        {std::tuple{60e6, Transition::B, 200.0, 4, 0.01}, std::tuple{45e6, Transition::A, 120.0, 2, 0.01},
-        std::tuple{100e6, Transition::B, 250.0, 6, 0.005}}) {
+        std::tuple{100e6, Transition::B, 250.0, 6, 0.01}}) {
     SCOPED_TRACE("k " + std::to_string(k) + ", corner " + std::to_string(corner));
     const ChainParameters p = roller(k, 0.3, 29.3, transition);
     // As if by a logger of the fine rate, whose noise is larger by the root of the ratio of rates.
-    Record record = measured(p, 42, per_cycle * fine, std::sqrt(fine) * noise * g0, random).record;
+    Record record = measured(p, 52, per_cycle * fine, std::sqrt(fine) * noise * g0, random).record;
     for (std::vector<double> *values : {&record.a_drum, &record.a_frame}) {
       const std::vector<double> all = butterworth(*values, corner * record.interval, order);
       values->clear();
