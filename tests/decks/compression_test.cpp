@@ -109,6 +109,21 @@ TEST_P(Biaxial, FindsStrengthAndStiffnessOfAHexagonalLattice) {
   }
 }
 
+// With suction F_a the contacts at 60 degrees carry N = R - F_a, of which R rubs; those within the rows have
+// opened before the lattice yields, and pull no longer. With T = tan(60 + phi) the axial stress is
+// root3 T side + F_a/d (T - root3).
+TEST_P(Biaxial, FindsTheCohesionThatSuctionGivesAHexagonalLattice) {
+  constexpr double side = 100.0, suction = 4000.0; // kPa, N/m
+  const double T = std::tan(pi / 3 + std::atan(0.3));
+  const double expected = root3 * T * side + 1e-3 * suction / diameter * (T - root3);
+  for (const std::string stepping : {"stock", "second"}) {
+    const Variables wet =
+        with(lattice("hexagonal", "0.3", "1.4e-3", stepping), {{"suction", number(suction)}});
+    const std::vector<double> axial = run_biaxial(GetParam(), wet).numbers("axial_stress_kPa");
+    EXPECT_NEAR(*std::max_element(axial.begin(), axial.end()), expected, 1e-2 * expected) << stepping;
+  }
+}
+
 // The upper platen moves by 4 nm in a time step, and its position is a multiple of 15 pm, the spacing of
 // floating-point numbers there. The limit of the energy error is exceeded if the distance of a step is not a
 // multiple of this spacing, if the platen is not at rest before it is accelerated, or if the work of the side
