@@ -129,7 +129,7 @@ std::string relative_density_of(const Run &run, double void_ratio) {
   };
   if (layers.empty() || !std::isfinite(void_ratio) || std::any_of(layers.begin(), layers.end(), differs))
     return dash;
-  return fixed(relative_density(void_ratio, layers.front().loosest, layers.front().densest), 2);
+  return rounded(relative_density(void_ratio, layers.front().loosest, layers.front().densest));
 }
 
 PageTable state_table(const std::vector<BedResult> &beds) {
