@@ -89,9 +89,11 @@ TakenNotes DeckVariables::taken() const {
   std::vector<std::string> all = lines(of_notes);
   TakenNotes taken;
   if (all.empty()) return taken;
-  all.resize(std::max<std::size_t>(all.size(), 6)); // the last lists may be empty
-  taken = {all[0], all[1], words_of(all[2]), words_of(all[3]), words_of(all[4]), words_of(all[5]), {}};
-  for (std::size_t n = 6; n < all.size(); ++n) {
+  constexpr std::size_t lists = 7;
+  all.resize(std::max(all.size(), lists)); // the last lists may be empty
+  taken = {all[0],           all[1],           words_of(all[2]), words_of(all[3]),
+           words_of(all[4]), words_of(all[5]), words_of(all[6]), {}};
+  for (std::size_t n = lists; n < all.size(); ++n) {
     const std::size_t blank = all[n].find(' ');
     taken.notes.emplace_back(all[n].substr(0, blank), all[n].substr(blank + 1));
   }
@@ -128,7 +130,8 @@ void DeckVariables::take(const TakenNotes &notes) {
                                   joined(notes.fixed, " "),
                                   joined(notes.free, " "),
                                   joined(notes.change, " "),
-                                  joined(notes.standard, " ")};
+                                  joined(notes.standard, " "),
+                                  joined(notes.later, " ")};
   for (const auto &[name, value] : notes.notes)
     all.push_back(fmt::format("{} {}", name, value));
   keep(of_notes, all);

@@ -31,6 +31,7 @@ struct TakenNotes {
   std::vector<std::string> free;     ///< groups whose variables the file must note, and that may change
   std::vector<std::string> change;   ///< names of variables that may differ
   std::vector<std::string> standard; ///< names whose notes are defaults, and need not agree
+  std::vector<std::string> later; ///< names that earlier files do not note: they were made with the defaults
   RestartNotes notes;
 };
 

@@ -47,8 +47,9 @@ void take_command(LAMMPS *lmp, int narg, char **arg) {
     taken.change = list_entries(change);
   std::vector<std::string> except;
   std::vector<std::string> only;
-  std::vector<std::string> *const lists[] = {&taken.fixed, &taken.free, &except, &only, &taken.standard};
-  const std::vector<std::string> keywords = {"fixed", "free", "except", "only", "default"};
+  std::vector<std::string> *const lists[] = {&taken.fixed, &taken.free,     &except,
+                                             &only,        &taken.standard, &taken.later};
+  const std::vector<std::string> keywords = {"fixed", "free", "except", "only", "default", "later"};
   std::vector<std::string> *list = nullptr;
   while (!in.empty()) {
     const std::string word = in.word("word");

@@ -52,10 +52,17 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
       if (!of_front_script(given.name) && !variables.is_declared(given.name)) variables.remove(given.name);
   const auto given = std::find_if(all_given.begin(), all_given.end(),
                                   [&](const GivenVariable &one) { return one.name == variable.name; });
-  const RestartNotes notes = variables.taken().notes;
+  TakenNotes taken = variables.taken();
+  const RestartNotes notes = taken.notes;
   variable.chosen =
       (variable.given && given != all_given.end()) ||
       std::any_of(notes.begin(), notes.end(), [&](const auto &note) { return note.first == variable.name; });
+  if (!notes.empty() && is_in(taken.later, variable.name) &&
+      std::none_of(notes.begin(), notes.end(),
+                   [&](const auto &note) { return note.first == variable.name; })) {
+    taken.notes.emplace_back(variable.name, standard);
+    variables.take(taken);
+  }
   variables.declare(variable);
   if (variable.given && given != all_given.end()) variables.set(variable.name, joined(given->values, " "));
   variables.set_default(variable.name, standard);

@@ -521,7 +521,7 @@ BadGroup take() {
       {"no decks", "@ out/x", "the list of decks is missing"},
       {"no list of changes", "@ out/x in.settle", "the variables that may change is missing"},
       {"unknown keyword", "@ out/chain.csv in.settle none if_noted soil",
-       "keyword is 'if_noted' ... fixed, free, except, only or default"},
+       "keyword is 'if_noted' ... fixed, free, except, only, default or later"},
       {"no file", "@ nofile in.settle none fixed soil", "file is 'nofile'; allowed: a file that can be read",
        on_two_ranks},
       {"a folder", "@ out in.settle none free soil", "file is 'out'; allowed: a file that can be read"},
