@@ -368,6 +368,13 @@ public:
   // Of the errors of the shared unknowns; nothing if the record does not determine them.
   std::optional<MatrixXd> covariance();
   bool is_noise() const;
+  // Whether the phase is far outside of the interval within which the record's is known: in unbroken contact
+  // the motion with a tension and another phase can look like that of a contact that does not pull.
+  bool contradicts_phase() const {
+    constexpr double far = 3.0 * 3.0 * 3.84, told = 0.02; // three half widths; rad
+    const double off = model_.phase - phase_said_;
+    return std::fabs(off) > told && phase_weight_ * off * off > far;
+  }
   // The largest tension of the law while drum and soil overlap.
   double tension() const;
 
@@ -906,6 +913,7 @@ void join_stretches(Solved &best, std::size_t together) {
 
 // Whether a fit follows the record better than another of the other condition.
 bool is_better(const Solved &one, const Solved &other) {
+  if (one.fit.contradicts_phase() != other.fit.contradicts_phase()) return other.fit.contradicts_phase();
   const std::size_t stretches = one.fit.stretches().size(), of_other = other.fit.stretches().size();
   // The condition that joins more contacts is the better one: short stretches follow jitter, too.
   constexpr double alike = 1.25;
@@ -1017,6 +1025,7 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
     if (!best) return std::nullopt;
     join_stretches(*best, many);
   }
+  if (best->fit.contradicts_phase()) return std::nullopt;
   MotionFit result;
   const double freedom =
       static_cast<double>(signals.measured() * best->fit.samples()) -

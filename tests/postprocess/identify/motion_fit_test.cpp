@@ -233,6 +233,30 @@ TEST(MotionFit, IntervalsContainTheErrorOfTheTimes) {
   }
 }
 
+// Under A a contact can pull without being lost. Its motion looks like that of one that does not pull, with
+// another phase: the given phase tells them apart.
+TEST(MotionFit, KeepsTheGivenPhaseInUnbrokenContact) {
+  ChainParameters p = roller(29.8e6, 0.39, 32.28, Transition::A);
+  p.k23 = 4.29e6;
+  p.c23 = 41.4e3;
+  int pulling = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    Record record = measured(p, 42, 31, 0.0106 * g0, random).record;
+    RecordOptions options;
+    record.omega = options.omega = p.omega;
+    options.me_re = p.Fw / (p.omega * p.omega);
+    record.phase = 0.0;
+    settle_excitation(record, options);
+    const IdentifiedRecord found = identify_record(record, RecordSetting());
+    EXPECT_NEAR(found.whole.law.k.mean, p.k, 2.0 * found.whole.law.k.half_width);
+    EXPECT_NEAR(found.whole.law.phase.mean, 0.0, M_PI / 180.0);
+    pulling += found.whole.tension > 1e4 ? 1 : 0;
+  }
+  EXPECT_GT(pulling, 0);
+}
+
 // Where contact is not lost nothing tells the phase, whatever the equations of motion can be made to follow.
 TEST(MotionFit, TellsNoPhaseInUnbrokenContact) {
   std::mt19937_64 random(5);
