@@ -15,7 +15,27 @@ namespace {
 
 using DensityRun = ElementRun<DensityRow>;
 
-/// Void ratios of the loosest and the densest packing, the first two rows of a run, as means over seeds.
+/// A number of one row of all runs of a soil, as mean over seeds; the loosest packing is row 0, the densest
+/// row 1.
+std::string mean_of(const std::vector<DensityRun> &runs, const SoilGroup &soil, std::size_t row,
+                    double DensityRow::*number) {
+  std::vector<double> values;
+  for (const std::size_t n : soil.runs)
+    values.push_back(runs[n].rows[row].*number);
+  const MeanInterval interval = mean_interval(values);
+  return values.size() < 2 ? fmt::format("{:.3f}", interval.mean)
+                           : fmt::format("{:.3f} ± {:.3f}", interval.mean, interval.half_width);
+}
+
+/// What the runs of a soil have found, and how sure that is.
+std::string answer_of(const std::vector<DensityRun> &runs, const SoilGroup &soil) {
+  return fmt::format(
+      "{}: void ratio {} in the loosest packing, {} in the densest{}.", soil.name,
+      mean_of(runs, soil, 0, &DensityRow::void_ratio), mean_of(runs, soil, 1, &DensityRow::void_ratio),
+      soil.runs.size() < 2 ? "; a single run, which does not say how much samples scatter: take several seeds"
+                           : "");
+}
+
 PageTable soil_table(const std::vector<DensityRun> &runs) {
   PageTable table(
       "density_soils", "Void ratios of each soil",
@@ -23,12 +43,7 @@ PageTable soil_table(const std::vector<DensityRun> &runs) {
       "| solid fraction, densest (-)");
   for (const SoilGroup &soil : soils_of(runs, {"shares"})) {
     const auto mean = [&](std::size_t row, double DensityRow::*number) {
-      std::vector<double> values;
-      for (const std::size_t n : soil.runs)
-        values.push_back(runs[n].rows[row].*number);
-      const MeanInterval interval = mean_interval(values);
-      return values.size() < 2 ? fmt::format("{:.3f}", interval.mean)
-                               : fmt::format("{:.3f} ± {:.3f}", interval.mean, interval.half_width);
+      return mean_of(runs, soil, row, number);
     };
     table.add({soil.name, std::to_string(soil.runs.size()), mean(0, &DensityRow::void_ratio),
                mean(1, &DensityRow::void_ratio), mean(0, &DensityRow::solid_fraction),
@@ -85,6 +100,8 @@ PageWriter read_density_page(const std::vector<fs::path> &folders) {
         "Balls that sank to a rough floor and came to rest: with the friction of the soil they form its "
         "loosest packing, without friction its densest. Between these void ratios a bed of this soil "
         "can be made.");
+    for (const SoilGroup &soil : soils_of(runs, {"shares"}))
+      page.answer(answer_of(runs, soil));
     page.section("Void ratios");
     page.figure(void_figure(runs));
     page.section("Numbers");
