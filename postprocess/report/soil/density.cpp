@@ -29,11 +29,11 @@ std::string mean_of(const std::vector<DensityRun> &runs, const SoilGroup &soil, 
 
 /// What the runs of a soil have found, and how sure that is.
 std::string answer_of(const std::vector<DensityRun> &runs, const SoilGroup &soil) {
-  return fmt::format(
-      "{}: void ratio {} in the loosest packing, {} in the densest{}.", soil.name,
-      mean_of(runs, soil, 0, &DensityRow::void_ratio), mean_of(runs, soil, 1, &DensityRow::void_ratio),
-      soil.runs.size() < 2 ? "; a single run, which does not say how much samples scatter: take several seeds"
-                           : "");
+  const std::string alone =
+      soil.runs.size() < 2 ? "; a single run does not say how much samples scatter: take several seeds" : "";
+  return fmt::format("Void ratio of the loosest packing {}, of the densest {} ({}){}.",
+                     mean_of(runs, soil, 0, &DensityRow::void_ratio),
+                     mean_of(runs, soil, 1, &DensityRow::void_ratio), soil.name, alone);
 }
 
 PageTable soil_table(const std::vector<DensityRun> &runs) {
