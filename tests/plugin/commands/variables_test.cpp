@@ -84,6 +84,23 @@ TEST_P(DeckVariablesTest, AreNotedInFilesAndTaken) {
               "was made; for another value run the first deck again"));
 }
 
+// A file that was made before a deck had the variable was made with its default.
+TEST_P(DeckVariablesTest, ThatAreNewHaveTheirDefaultsInEarlierFiles) {
+  well(run(declarations + box() + "drumlin/write data own.data made 7 groups soil\n", {}));
+  const auto taken = [](const std::string &later) {
+    return "drumlin/take own.data \"the first deck\" pull free soil" + later + "\n" +
+           "drumlin/variable pull 0 non_negative N soil attraction\n" +
+           "drumlin/variable yield 1 positive 1 soil stiffness\n" + declarations +
+           "drumlin/record parameters.csv\n";
+  };
+  EXPECT_TRUE(printed(run(taken(""), {}), "variable pull is '0'; allowed: a file that notes"));
+  well(run(taken(" later pull yield"), {{"pull", "5"}}));
+  EXPECT_EQ(row("pull"), "5"); // changed on purpose
+  EXPECT_EQ(row("yield"), "1");
+  EXPECT_TRUE(printed(run(taken(" later pull yield"), {{"yield", "3"}}),
+                      "variable yield is '3'; allowed: 1, with which 'own.data' was made"));
+}
+
 TEST_P(DeckVariablesTest, OfAnUnknownNameAreRefusedFirst) {
   EXPECT_TRUE(printed(run(declarations, {{"K", "1"}, {"k", "-1"}}),
                       "ERROR: drumlin/variables: -var K is '1', a variable that this deck does not have; "
