@@ -372,9 +372,10 @@ public:
   // the motion with a tension and another phase can look like that of a contact that does not pull.
   bool contradicts_phase() const {
     constexpr double far = 3.0 * 3.0 * 3.84, told = 0.02; // three half widths; rad
-    const double off = model_.phase - phase_said_;
-    return std::fabs(off) > told && phase_weight_ * off * off > far;
+    return std::fabs(model_.phase - phase_said_) > told && phase_cost() > far;
   }
+  // What the distance from that phase adds to the sum of squares.
+  double phase_cost() const { return phase_weight_ * std::pow(model_.phase - phase_said_, 2); }
   // The largest tension of the law while drum and soil overlap.
   double tension() const;
 
@@ -884,7 +885,7 @@ struct Solved {
   MatrixXd covariance;
 
   double cost() const {
-    double sum = 0.0;
+    double sum = fit.phase_cost();
     for (std::size_t sensor = 0; sensor < sensors; ++sensor)
       sum += 2.0 * static_cast<double>(fit.samples()) * std::log(fit.level(sensor));
     return sum;
@@ -1008,12 +1009,17 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
       stretches.begin() + static_cast<std::ptrdiff_t>(std::min(pilot_contacts, stretches.size())));
   std::optional<Solved> best;
   double difference = std::numeric_limits<double>::infinity();
+  double of_k_apart = 0.0, of_c_apart = 0.0; // between the two conditions
   for (const bool pulls : {false, true}) {
     model.pulls = pulls;
     std::optional<Solved> one = solved(Fit(signals, model, first, phase_weight, model.phase, bond));
     if (!one) continue;
     join_stretches(*one, few);
-    if (best) difference = std::fabs(one->cost() - best->cost());
+    if (best) {
+      difference = std::fabs(one->cost() - best->cost());
+      of_k_apart = one->fit.model().k - best->fit.model().k;
+      of_c_apart = one->fit.model().c - best->fit.model().c;
+    }
     if (!best || is_better(*one, *best)) best = std::move(one);
   }
   if (!best) return std::nullopt;
@@ -1048,6 +1054,13 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
   result.pulls = found.pulls;
   constexpr double clear = 20.0;
   result.pull_is_clear = difference > clear;
+  // It may as well be the other condition: in unbroken contact the motion of one is that of the other, with
+  // another phase, up to where contact would just be lost, at which a fit stops.
+  constexpr double certain = 5.0 * clear;
+  if (difference < certain) {
+    result.k.half_width = std::hypot(result.k.half_width, of_k_apart);
+    result.c.half_width = std::hypot(result.c.half_width, of_c_apart);
+  }
   result.bond_stiffness = found.k23;
   result.bond_damping = found.c23;
   result.tension = best->fit.tension();
