@@ -25,7 +25,8 @@ void expect_refusal(const Outcome &outcome, const std::vector<std::string> &says
   EXPECT_FALSE(outcome.says("the engine runs"));
   std::vector<std::string> errors;
   for (const std::string &line : lines_of(outcome.output))
-    if (line.find("ERROR") != std::string::npos) errors.push_back(line);
+    if (contains(line, "ERROR") && !contains(line, "PMIX ERROR")) // MPI may have its say on a busy machine
+      errors.push_back(line);
   ASSERT_EQ(errors.size(), 1U) << outcome.output;
   EXPECT_EQ(errors.front().rfind("ERROR: drumlin ", 0), 0U) << errors.front();
   for (const std::string &words : says)
