@@ -9,6 +9,7 @@
 
 #include <set>
 #include <string>
+#include <system_error>
 
 namespace drumlin::post {
 
@@ -36,7 +37,9 @@ void check_engine_path(const fs::path &out) {
 
 std::string build_line() {
   std::set<fs::path> files;
-  for (const fs::directory_entry &entry : fs::directory_iterator(fs::path(plugin_library()).parent_path()))
+  std::error_code none; // where the plugin is not built
+  for (const fs::directory_entry &entry :
+       fs::directory_iterator(fs::path(plugin_library()).parent_path(), none))
     if (entry.path().extension() == ".so") files.insert(entry.path());
   for (const char *room : {"bed", "benchmarks", "chain", "soil", "study"})
     for (const fs::directory_entry &entry : fs::directory_iterator(places().inputs / room))

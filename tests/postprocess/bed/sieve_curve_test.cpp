@@ -39,6 +39,9 @@ SieveCurve gap_graded() {
 TEST(SieveCurve, IsReadAsLaboratoriesWriteIt) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("drumlin-sieves-" + std::to_string(::getpid()) + ".csv");
+  const char *const all_columns =
+      "size (mm),retained (g),retained (%),cumulative retained (%),passing (%)\n16,0,0,0,100\n"
+      "8,1000,50,50,50\n4,750,37.5,87.5,12.5\n0,250,12.5,100,0\n";
   for (const char *text :
        {"size (mm),passing (%)\n4,12.5\n8,50\n16,100\n", "Probe 3\n\nsize;passing\n16;100\n8;50\n4;12,5\n",
         "size [m]\tretained [%]\n0.016\t0\n0.008\t50\n0.004\t37.5\n",
@@ -49,9 +52,7 @@ TEST(SieveCurve, IsReadAsLaboratoriesWriteIt) {
         "size (mm);cumulative retained (%)\n16;0\n8;50\n4;87,5\n",
         "size (mm);Cumulative Retained (%)\n0;100\n4;87,5\n8;50\n16;0\n",
         "size (mm);cumulative retained\n16;0\n8;1.000\n4;1.750,0\n0;2.000\n",
-        "size (mm);individual retained (g)\n16;0\n8;1'000\n4;750\n0;250\n",
-        "size (mm),retained (g),retained (%),cumulative retained (%),passing (%)\n16,0,0,0,100\n"
-        "8,1000,50,50,50\n4,750,37.5,87.5,12.5\n0,250,12.5,100,0\n"}) {
+        "size (mm);individual retained (g)\n16;0\n8;1'000\n4;750\n0;250\n", all_columns}) {
     post::write_files({{file, text}});
     const SieveCurve curve = post::read_sieve_file(file);
     ASSERT_EQ(curve.sieves().size(), 3u) << text;
@@ -89,7 +90,7 @@ TEST(SieveCurve, SaysWhatToWriteWhereRetainedMayBeCumulative) {
     std::string clear = text;
     clear.insert(clear.find("retained"), "individual ");
     const bool unit = clear.find("(g)") != std::string::npos, share = clear.find("(%)") != std::string::npos;
-    if (!unit && !share) clear.insert(clear.find("\n"), " (g)");
+    if (!unit && !share) clear.insert(clear.find('\n'), " (g)");
     if (!share || clear.find("87.5") == std::string::npos) {
       EXPECT_EQ(message(clear), "not refused") << clear;
     }

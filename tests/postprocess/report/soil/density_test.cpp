@@ -1,6 +1,7 @@
 // The report of the loosest and the densest packing: what it reads, refuses and shows.
 #include "tests/support/element_report.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -17,12 +18,12 @@ class DensityReport : public ElementReport {};
 // Two seeds of one soil: means of 0.50 and 0.25, and every packing in a table.
 TEST_F(DensityReport, ShowsTheLoosestAndTheDensest) {
   for (const char *seed : {"1", "2"})
-    write_run(
-        "runs/" + std::string(seed), "density.csv",
-        header +
-            (seed[0] == '1' ? "1,0.8,0.45,0.48,0.6757,0,0.845,3.1\n" : "1,0.8,0.45,0.52,0.6579,0,0.822,3\n") +
-            dense_row + "0.5,0.4,0.225,0.4,0.7143,0.4,0.893,3.3\n",
-        "deck,density\nsample,random\nseed," + std::string(seed) + "\n");
+    write_run("runs/" + std::string(seed), "density.csv",
+              fmt::format("{}{}{}0.5,0.4,0.225,0.4,0.7143,0.4,0.893,3.3\n", header,
+                          seed[0] == '1' ? "1,0.8,0.45,0.48,0.6757,0,0.845,3.1\n"
+                                         : "1,0.8,0.45,0.52,0.6579,0,0.822,3\n",
+                          dense_row),
+              "deck,density\nsample,random\nseed," + std::string(seed) + "\n");
   EXPECT_TRUE(contains(report("runs"), "density/index.html"));
   expect_sound_page(root / "report/density", 1, "index.html", 0);
   // Student's t of two values is 12.71, the standard deviation of the mean 0.02.
