@@ -110,10 +110,11 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine) {
 // 1500 kg (2 pi 4.82 Hz)^2.
 TEST(CalibrateCommand, GivesABedTheRollerPerMetre) {
   const Scratch scratch;
-  post::write_files({{scratch / "mine", "width 2 m\ndiameter 1.5 m\ndrum_mass 4 t\nframe_mass 3 t\n"
-                                        "frequency 30 Hz\nforce 250 kN\n"},
-                     {scratch / "places", "inputs=" DRUMLIN_SOURCE_DIR "/inputs\nliggghts_plugin=" +
-                                              post::plugin_library() + "\nliggghts=/no/engine\n"}});
+  post::write_files(
+      {{scratch / "mine", "width 2 m\ndiameter 1.5 m\ndrum_mass 4 t\nframe_mass 3 t\n"
+                          "frequency 30 Hz\nforce 250 kN\n"},
+       {scratch / "places", "inputs=" DRUMLIN_SOURCE_DIR "/inputs\nliggghts_plugin=" DRUMLIN_TOOLS
+                            "\nliggghts=/no/engine\n"}}); // the plugin: any file
   const Outcome outcome =
       run_program({DRUMLIN_TOOLS, "calibrate", "--target", "k=20e6", "--vary", "k=1e8:1e10", "--roller",
                    "mine", "--balls", "1500", "--set", "frequency=33", "--set", "c23=7", "--out", "out"},
