@@ -42,8 +42,9 @@ std::vector<double> values(Arguments &in, const std::string &name, Range range, 
   return numbers;
 }
 
-/// The contact of balls of two types. That of a layer with the drum or a wall is the layer's own, without
-/// suction, which would make the drum stick; drum and frame have no contacts with each other.
+/// The contact of balls of two types. Drum and walls take the values of the layer that they touch, but for
+/// suction: it is 0 there, since with suction the drum would stick to the soil. (Drum and frame do not
+/// touch.)
 ContactValues contact(const std::vector<ContactValues> &layers, int type_a, int type_b) {
   const int a = layer_of(type_a), b = layer_of(type_b);
   if (a < 0 || b < 0) {

@@ -6,8 +6,10 @@
 
 namespace drumlin {
 
-/// Rumpf's strength of N contacts per ball that each carry F_a, in any direction as often, for balls of all
-/// sizes: sigma = solid N F_a <d> / (pi <d^n>) in n dimensions.
+/// Rumpf's tensile strength of a packing of solid fraction P, in which each ball has Z contacts on average,
+/// in all directions alike, and each contact can carry the tension F_a:
+///   S = P Z F_a <d> / (pi <d^n>),   n = 2, 3: number of dimensions; <>: mean over the balls of the group;
+/// in Pa, in two dimensions with F_a per metre of depth. Solved here for F_a.
 void suction_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
   Arguments in(lmp->error, "drumlin/suction", narg, arg);
   std::string name = in.word("variable", "the name of a variable");

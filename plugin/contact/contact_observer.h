@@ -31,7 +31,7 @@ struct ContactRecord {
   double suction;                      ///< N, constant attraction
   double spring_force;                 ///< N, of the normal spring, less suction
   double spring_energy;                ///< J, in the normal spring, less suction times overlap
-  double yield_heat;                   ///< J, that the spring has turned into heat in this step
+  double yield_heat;                   ///< J, heat of yielding in this step
   double normal_stiffness;             ///< N/m
   double normal_dashpot;       ///< N s/m; 0 under `stepping second`, where it does not limit the time step
   double tangential_stiffness; ///< N/m; 0 without a tangential spring

@@ -13,7 +13,7 @@ namespace drumlin {
 struct ContactSums {
   double normal_heat =
       0.0; ///< W, of the normal dashpots; under B with the spring energy lost while the force is 0
-  double yield_heat = 0.0; ///< J, of springs that have yielded in this step
+  double yield_heat = 0.0; ///< J, heat of contacts that yielded in this step
   double tangential_power =
       0.0; ///< W, taken from the balls by friction and rolling: heat and energy of their springs
   double missed_heat = 0.0;       ///< J, of the normal dashpots in this step, see ContactObserver::see_heat()

@@ -30,7 +30,7 @@ public:
   void unpack_ghosts(int, int, double *) override;
   /// 0: kinetic energy, J; 1, 2: energy of the normal and of the tangential springs, J; 3, 4: heat of the
   /// normal dashpots, and of friction and rolling, J; 5: mean number of contacts of a ball of the group; 6:
-  /// heat of springs that yield, J.
+  /// heat of contacts that yield, J.
   double compute_vector(int) override;
 
 private:

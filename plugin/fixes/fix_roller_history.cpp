@@ -21,8 +21,8 @@ namespace {
 constexpr const char *command = "fix roller/history";
 constexpr const char *file_keyword = "fix roller/history: keyword file";
 constexpr const char *cycles_keyword = "fix roller/history: keyword cycles";
-/// Added to the whole number of a step in a restart file: behind all else follows the heat of yielding.
-/// (Files of beds that do not yield have no such number.)
+/// Added to the number of a time step in a restart file to say that the heat of yielding follows as the last
+/// number. Beds that do not yield have the same file as before.
 constexpr double with_yield_heat = 0.5;
 
 } // namespace

@@ -25,7 +25,7 @@ struct BedSample {
   double void_ratio = 0.0;
   double raised = 0.0;        ///< kg m, mass times rise of all balls since the first set-up
   double friction_heat = 0.0; ///< J, of friction and rolling since the start
-  double yield_heat = 0.0;    ///< J, of springs that have yielded since the start
+  double yield_heat = 0.0;    ///< J, heat of contacts that have yielded since the start
   bool absorbs = false;       ///< whether fix boundary/absorb acts on the bed
   bool yields = false;        ///< whether the contact law remembers, and may yield
 };

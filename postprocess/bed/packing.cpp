@@ -407,7 +407,7 @@ std::string name_of_grading(const PackingOptions &options) {
                        : grading_name(options.grading);
 }
 
-/// A number of each layer, of how it is poured.
+/// One of the numbers of Pouring for each layer, separated by commas, the lowest layer first.
 std::string poured_list(const std::vector<BedLayer> &layers, double Pouring::*number) {
   std::string list;
   for (const BedLayer &layer : layers)

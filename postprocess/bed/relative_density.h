@@ -45,7 +45,8 @@ private:
   std::vector<Row> rows_; ///< in the order of shares
 };
 
-/// The void ratios of the loosest and the densest packing of a layer of a bed.
+/// The scale of relative density in a layer of a bed: void ratios of the loosest and the densest packing of
+/// its soil.
 struct LayerPackings {
   double top; ///< m, height of the layer's surface
   double loosest, densest;
@@ -55,7 +56,7 @@ struct LayerPackings {
   double compaction(double solid_fraction) const { return solid_fraction * (1.0 + densest); }
 };
 
-/// Those of the layers of a bed, the lowest first, from the parameters of its run; empty if they are not
+/// The same of all layers of a bed, the lowest first, from the parameters of its run; empty if they are not
 /// known. std::runtime_error for parameters that no deck writes.
 std::vector<LayerPackings> noted_packings(const std::map<std::string, std::string> &parameters);
 /// The layer at a height; that above all layers is the highest one.

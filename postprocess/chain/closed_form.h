@@ -138,8 +138,8 @@ public:
   void finish_cycle(ChainMotion &motion, MotionObserver *observer = nullptr) const;
   /// The same to a time within the cycle [s].
   void go_to(double time, ChainMotion &motion, MotionObserver *observer = nullptr) const;
-  /// A motion that comes here from other soil. Under B a contact ends where the law's force has become a
-  /// tension, and begins again where it has become a compression.
+  /// Takes over a motion at a step of the soil, from the solver of the soil before. Under B the contact ends
+  /// if the new k and D make its force a tension, and begins if they make it a compression.
   void take_over(const ChainSolver &before, ChainMotion &motion, MotionObserver *observer = nullptr) const;
 
 private:

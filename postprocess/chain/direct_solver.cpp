@@ -46,7 +46,7 @@ struct Exit {
 constexpr std::size_t max_exits = 2;
 using Exits = std::array<Exit, max_exits>;
 
-// The contact between drum and soil, and how fast a roller that drives meets another one.
+// Stiffness and damping of the contact at a time, and their rates of change while the roller drives.
 struct Soil {
   double k = 0.0, c = 0.0;           // N/m, N s/m
   double k_rate = 0.0, c_rate = 0.0; // per second
@@ -56,7 +56,7 @@ class Chain {
 public:
   explicit Chain(const ChainParameters &parameters, const std::vector<WaySection> &way = {})
       : p_(parameters), standing_{p_.k, p_.damping(), 0.0, 0.0} {
-    // The stiffest and the most damped places are at ends of sections.
+    // k and D are linear within a section, so that their extremes are at its ends.
     for (const WaySection &section : way)
       for (const double t : {section.begin, section.end}) {
         section_ = &section;

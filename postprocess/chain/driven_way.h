@@ -1,6 +1,6 @@
-// A roller that drives over a way: when it is where, and which soil it then meets. The contact's k and D are
-// those of the place, whatever the overlap: soil that stiffens along the way takes work, the integral of
-// k'(s) d^2 / 2 over the distance in contact, from what moves the roller.
+// A roller that drives: its place along the way as a function of time, and k and D of the soil there. They
+// depend on the place alone, not on the overlap. Where k grows along the way, the drive of the roller
+// therefore does work on the contact spring: the integral of k'(s) d^2 / 2 over the distance.
 #pragma once
 
 #include "files/way.h"

@@ -368,8 +368,9 @@ public:
   // Of the errors of the shared unknowns; nothing if the record does not determine them.
   std::optional<MatrixXd> covariance();
   bool is_noise() const;
-  // Whether the phase is far outside of the interval within which the record's is known: in unbroken contact
-  // the motion with a tension and another phase can look like that of a contact that does not pull.
+  // Whether the fitted phase is far outside of the interval in which the exciter's phase is known. In
+  // unbroken contact a contact that pulls moves as one that does not pull, with other k and c and another
+  // phase.
   bool contradicts_phase() const {
     constexpr double far = 3.0 * 3.0 * 3.84, told = 0.02; // three half widths; rad
     return std::fabs(model_.phase - phase_said_) > told && phase_cost() > far;
@@ -1054,8 +1055,8 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
   result.pulls = found.pulls;
   constexpr double clear = 20.0;
   result.pull_is_clear = difference > clear;
-  // It may as well be the other condition: in unbroken contact the motion of one is that of the other, with
-  // another phase, up to where contact would just be lost, at which a fit stops.
+  // If the record hardly tells A from B, the interval contains the result of both. In unbroken contact both
+  // follow the same motion, with different k, c and phase.
   constexpr double certain = 5.0 * clear;
   if (difference < certain) {
     result.k.half_width = std::hypot(result.k.half_width, of_k_apart);

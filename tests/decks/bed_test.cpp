@@ -639,8 +639,8 @@ TEST_F(Bed, EnergyErrorIsBelowAThousandthOnGroundThatAbsorbs) {
   }
 }
 
-// The heat of yielding is a share of its own, and a run that continues from a restart file goes on with it
-// and with what its contacts remember.
+// The energy balance closes with the heat of yielding as a term of its own, and a run that continues from a
+// restart file has the same rows: the file holds that heat and the largest overlap of each contact.
 TEST_F(Bed, EnergyErrorIsBelowAThousandthWithContactsThatYieldAndContinue) {
   for (const char *stepping : steppings) {
     const Scratch bed, stayed, left;

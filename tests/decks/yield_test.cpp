@@ -84,9 +84,9 @@ protected:
   static bool second() { return std::get<1>(GetParam()) == "second"; }
 };
 
-/// Speeds from 0.09 to 0.31 m/s. Without a dashpot all of the heat is that of yielding, (1 - k1/k2) m v^2 /
-/// 2; with one yielding turns (1 - k1/k2) k1 D^2 / 2 into heat, where D = v sqrt(m/k1) exp(-b t1) is the
-/// closed form of the deepest overlap, and the dashpot the rest.
+/// Speeds from 0.09 to 0.31 m/s. Without a dashpot all heat is that of yielding, (1 - k1/k2) m v^2 / 2. With
+/// a dashpot yielding gives (1 - k1/k2) k1 d_max^2 / 2, with the closed form of the largest overlap, d_max =
+/// v sqrt(m/k1) exp(-b t1), and the dashpot the rest.
 TEST_P(YieldImpacts, ReboundAndBecomeHeatAsTheClosedFormsAtAnySpeed) {
   for (const double ratio : {1.0, 1.5, 4.0})
     for (const auto &[transition, D] :

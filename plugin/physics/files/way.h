@@ -1,9 +1,9 @@
 #pragma once
 // The soil along the way of a roller: a table with the columns s (m), k (N/m) and D (-), as inputs/chain/way
-// has it. Between two rows k and D are linear in s; two rows of the same s are a step. Plugin and tools share
-// this reader.
+// has it. Between two rows k and D are linear in s; two rows of the same s are a step.
 
-#include <cctype>
+#include "roller.h"
+
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
@@ -31,17 +31,10 @@ namespace way_file {
 constexpr const char *header = "s (m),k (N/m),D (-)";
 constexpr std::size_t most_rows = 1'000'000;
 
-/// Text of a file for an error: without control characters, at most 60 characters.
-inline std::string shown(std::string text) {
-  for (char &c : text)
-    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '?';
-  return text.size() <= 60 ? text : text.substr(0, 60) + "...";
-}
-
 [[noreturn]] inline void fail(const std::string &what, std::size_t line, const std::string &file,
                               const std::string &value, const std::string &allowed) {
   throw std::invalid_argument(what + " in line " + std::to_string(line) + " of '" + file + "' is '" +
-                              shown(value) + "'; allowed: " + allowed);
+                              roller_file::shown(value) + "'; allowed: " + allowed);
 }
 
 /// A row from its line.
@@ -83,7 +76,7 @@ inline Way read_way(const std::string &file) {
   std::ifstream in;
   if (std::filesystem::is_regular_file(file, code)) in.open(file); // a pipe could block for ever
   if (!in.is_open())
-    throw std::invalid_argument("way is '" + way_file::shown(file) +
+    throw std::invalid_argument("way is '" + roller_file::shown(file) +
                                 "'; allowed: a file that can be read, with the columns " + way_file::header);
   Way way;
   std::size_t line = 0;
@@ -106,8 +99,8 @@ inline Way read_way(const std::string &file) {
     way.push_back(row);
   }
   if (way.empty() || !(way.back().s > way.front().s))
-    throw std::invalid_argument("way of '" + way_file::shown(file) + "' has " + std::to_string(way.size()) +
-                                " rows; allowed: two or more, of different s");
+    throw std::invalid_argument("way of '" + roller_file::shown(file) + "' has " +
+                                std::to_string(way.size()) + " rows; allowed: two or more, of different s");
   return way;
 }
 

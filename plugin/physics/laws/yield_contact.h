@@ -1,20 +1,21 @@
 #pragma once
-/// A contact that yields (Walton and Braun 1986, J. Rheol. 30, 949-980): its spring is loaded along k1 d, and
-/// from the largest overlap D that the contact has had, unloaded and loaded again along
-///   k2 (d - dp) >= 0,   dp = (1 - k1/k2) D,   k2 >= k1,
-/// with a linear dashpot. At the plastic overlap dp the spring is free of force, and below it never pulls.
+/// A contact that yields (Walton and Braun 1986, J. Rheol. 30, 949-980). First loading goes along k1 d. Below
+/// the largest overlap of the contact so far, d_max, it is unloaded and loaded again along
+///   k2 (d - d_p) >= 0,   d_p = (1 - k1/k2) d_max,   k2 >= k1.
+/// At the plastic overlap d_p the spring force is zero; below it the spring does not pull. A linear dashpot
+/// acts in parallel.
 ///
-/// A contact forgets D when its overlap ends: the engines keep no history of pairs that are apart. Measured
-/// against a memory that lasts (the page pair_gran_yield_transition has the figures): where contacts open in
-/// every cycle they yield in every cycle, which costs up to twice the energy or more, but a column sinks
-/// less, since the plastic overlap goes with the memory; neither sinks without end. In a bed work, settlement
-/// and stiffness are the same within the scatter of beds.
+/// A contact forgets d_max when the balls separate, because the engines keep no history of pairs that are
+/// apart. The page pair_gran_yield_transition compares that with a lasting memory: contacts that open in
+/// every cycle yield in every cycle, which dissipates up to 3.6 times the energy; a column of balls settles
+/// less, and not without end under either rule. In a bed settlement and stiffness agree within the scatter of
+/// beds, and the work of a cycle differs by 2 to 12 %.
 ///
-/// The dashpot acts at every overlap d > 0, below dp too. A dashpot that ended at dp would let the force jump
-/// there, and the order of whole impacts would fall from 2 to 1.0 (measured). Under A it therefore pulls
-/// until d = 0, and a strong one stops the ball inside dp.
+/// The dashpot acts at every overlap d > 0, also below d_p. If it ended at d_p, the force would jump there,
+/// and an impact would be integrated with an error of first instead of second order (measured). Under A the
+/// contact therefore pulls until d = 0, and a strong dashpot stops the ball at an overlap between 0 and d_p.
 ///
-/// D, the damping ratio, is that of a vibration along k2: a contact that carries a load vibrates along k2.
+/// The damping ratio D refers to k2, because a contact under load vibrates along k2.
 
 #include "physics/laws/contact_law.h"
 #include "physics/laws/law_parameters.h"
@@ -27,7 +28,7 @@
 
 namespace drumlin::physics {
 
-/// The law of one contact that yields, in a step that it has begun with a largest overlap.
+/// The law of one contact in a time step, made with d_max at the beginning of the step.
 class YieldLaw : public ContactLaw<YieldLaw> {
 public:
   /// \param k1, k2 stiffnesses of first loading and of unloading, N/m, k2 >= k1 > 0 \param c damping
@@ -35,8 +36,8 @@ public:
   YieldLaw(double k1, double k2, double c, Transition transition, double largest)
       : ContactLaw(transition), k1_(k1), k2_(k2), c_(c), largest_(largest) {}
 
-  // At the largest overlap the contact is loaded: with the memory that it has before and after it has reached
-  // it the force has the same bits.
+  // At d = d_max the line of first loading counts, so that the force has the same bits before and after
+  // remember().
   [[nodiscard]] double spring(double overlap) const {
     const double unloading = k1_ * largest_ - k2_ * (largest_ - overlap);
     const double pushing = unloading < 0.0 ? 0.0 : unloading;
@@ -55,7 +56,7 @@ public:
   [[nodiscard]] double elastic(double overlap) const {
     return overlap >= largest_ ? k1_ / k2_ * spring(overlap) : spring(overlap);
   }
-  /// The area between the line of loading and that of unloading.
+  /// Work of first loading up to d_max that unloading does not give back.
   [[nodiscard]] double yielded(double overlap) const {
     const double most = std::max(largest_, overlap);
     return 0.5 * k1_ * (1.0 - k1_ / k2_) * most * most;
@@ -78,29 +79,31 @@ private:
   double k1_, k2_, c_, largest_;
 };
 
-/// Restitution e, from 0 to 1, of the first impact of two balls without gravity, at any speed. In units of m
-/// and k2 the spring is k1/k2 = q. The ball is loaded until it is at rest at D = exp(-b t1) / sqrt(q), b =
-/// damping_ratio, and then pushed back from the distance q D to dp. The time of a quarter of a damped
-/// vibration from rest to a force of spring and dashpot of zero is that from the impact to rest, so that
-/// under B e = sqrt(q) exp(-b (t1 + t2)). Under A the dashpot acts alone on the way from dp to 0.
+/// Coefficient of restitution e of the first impact of two balls without gravity; it does not depend on the
+/// speed. In units of m_eff, k2 and the speed of impact, with q = k1/k2 and the damping ratio b:
+///   loading   takes the time t1 to rest at d_max = exp(-b t1) / sqrt(q);
+///   unloading starts there, at the distance q d_max from d_p; after t2 the force of spring and dashpot is 0.
+/// Both times are quarters of a damped vibration: t = atan2(w, b) / w, with w = sqrt(q - b^2) for t1 and
+/// sqrt(1 - b^2) for t2. B: the contact ends after t2, e = sqrt(q) exp(-b (t1 + t2)). A: it goes on to d_p,
+/// and from there to d = 0 the dashpot acts alone and takes 2 b d_p of the speed.
 [[nodiscard]] inline double restitution_of_yield(Transition transition, double damping_ratio,
                                                  double stiffness_ratio) {
   constexpr double pi = 3.14159265358979323846;
   const double b = damping_ratio, q = 1.0 / stiffness_ratio;
-  /// Angle and frequency of that quarter, for a spring k.
+  /// A quarter of a damped vibration on a spring k: angle, rad, and angular frequency w.
   struct Quarter {
     double angle, w;
     [[nodiscard]] double time() const { return angle / w; }
   };
   const auto quarter = [b](double k) -> Quarter {
     const double root = std::sqrt(k), squared = (root - b) * (root + b), w = std::sqrt(std::fabs(squared));
-    if (w < 1e-8 * root) return {1.0, b}; // the limit, in which the time is 1 / b
+    if (w < 1e-8 * root) return {1.0, b}; // critical damping: the time is 1 / b
     return {squared > 0.0 ? std::atan2(w, b) : std::log((b + w) / root), w};
   };
   const double deepest = std::exp(-b * quarter(q).time()) / std::sqrt(q);
   const Quarter back = quarter(1.0);
   if (transition == Transition::B) return q * deepest * std::exp(-b * back.time());
-  if (b >= 1.0) return 0.0; // the spring never comes free
+  if (b >= 1.0) return 0.0; // the overlap does not come down to d_p in finite time
   const double at_plastic = q * deepest * std::exp(-b * (pi - back.angle) / back.w);
   return std::max(0.0, at_plastic - 2.0 * b * (1.0 - q) * deepest);
 }
@@ -132,7 +135,7 @@ struct YieldContact {
   /// That of the linear law with k1: a deck that lets its contacts yield keeps its friction.
   void set_defaults() { tangential_stiffness = 2.0 / 7.0 * stiffness; }
 
-  /// Without a dashpot, sqrt(k1/k2): more cannot be had.
+  /// Of an impact without dashpot; no dashpot makes it larger.
   [[nodiscard]] double largest_restitution() const { return 1.0 / std::sqrt(stiffness_ratio); }
   void set_restitution(double e) {
     damping = damping_ratio_by_bisection(
@@ -148,7 +151,7 @@ struct YieldContact {
     return 2.0 * damping * std::sqrt(m_eff * unloading_stiffness());
   }
 
-  /// The law of a contact of effective mass m_eff, kg, > 0, that has had a largest overlap, m.
+  /// The law of a contact of effective mass m_eff > 0, kg, with the largest overlap so far, m.
   [[nodiscard]] YieldLaw law(double m_eff, double, double largest) const {
     return {stiffness, unloading_stiffness(), damping_coefficient(m_eff), transition, largest};
   }

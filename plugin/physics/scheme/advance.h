@@ -235,9 +235,9 @@ template <class Law>
 
 /// The forces of a contact with suction: a constant attraction F_a that acts while the balls touch, on top of
 /// the force of the law, so that
-///   Fc = (spring and dashpot under the transition condition) - F_a  for d > 0, else 0,
-/// with the potential -F_a d: it does no work on a closed path. ContactState::force stays the part of the law
-/// alone, to which friction is limited, and whose change the implicit dashpot needs.
+///   Fc = (spring and dashpot under the transition condition) - F_a  for d > 0, else 0.
+/// It has the potential -F_a d and so does no work over a closed cycle. ContactState::force stays the force
+/// of the law without suction: it limits friction, and the implicit dashpot needs its change.
 ///
 /// The attraction jumps where the overlap begins and where it ends. Both times are located on the parabola of
 /// the overlap within the step. It acts for the share of the step in which there was an overlap: the closing
@@ -316,7 +316,7 @@ template <class Law>
 
 namespace detail {
 
-/// A law with suction, as far as heat_of_change() needs it.
+/// The functions of a law that heat_of_change() calls, with the suction subtracted from the spring force.
 template <class Law>
 struct Attracting {
   static constexpr bool is_linear = Law::is_linear;

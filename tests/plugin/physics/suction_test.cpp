@@ -22,7 +22,7 @@ constexpr double k = 1e8, m = 2000.0;
 const double w0 = std::sqrt(k / m);
 double coefficient(double D) { return 2.0 * D * std::sqrt(m * k); }
 
-/// A ball that falls on a partner at x = 0, which pulls it, and its speed and place some time later.
+/// Overlap and its rate of a ball that meets a fixed partner at x = 0.
 struct Flight {
   double d, rate;
 };
@@ -47,7 +47,8 @@ Flight stock(const Law &law, double suction, double weight, const Flight &start,
   return {-ball.x[0], -ball.v[0]};
 }
 
-/// The same by CVODE, from phase to phase: apart, pushed and pulled, and under B pulled alone.
+/// The same by CVODE, which is started again where the balls touch or separate and where, under B, spring and
+/// dashpot together become zero.
 Flight exact(double c, bool no_tension, double suction, const Flight &start, double time) {
   enum class Phase { apart, pushed, pulled } phase = start.d > 0.0 ? Phase::pushed : Phase::apart;
   const auto push = [c](const oracle::State &y) { return k * y[0] + c * y[1]; };
@@ -84,7 +85,8 @@ struct Row {
 
 class SuctionImpact : public testing::TestWithParam<Row> {};
 
-/// Largest error of the rate over 20 onsets of an impact at 1 m/s, after which the ball flies on or sticks.
+/// Largest error of the rate for makes at 20 places within a time step; impact at 1 m/s, after which the ball
+/// leaves or sticks.
 double worst_error(const Row &row, int steps_per_contact) {
   const double c = coefficient(row.D), suction = row.suction * std::sqrt(k * m);
   const double dt = M_PI / (w0 * steps_per_contact);
@@ -146,7 +148,7 @@ double energy_after(const Law &law, double suction, bool stock, double dt, doubl
   return 0.5 * rate * rate + law.energy(d) - suction * std::max(0.0, d) + heat;
 }
 
-/// The largest departure of the sum from the energy of the impact, over that, among 20 onsets.
+/// Largest error of that sum over the energy of the impact, for makes at 20 places within a time step.
 template <class Law>
 double energy_error(const Law &law, double suction, double duration, double steps) {
   double worst = 0.0;
@@ -158,7 +160,7 @@ double energy_error(const Law &law, double suction, double duration, double step
   return worst;
 }
 
-// With a dashpot, whether the ball leaves or sticks.
+// With a dashpot, both where the ball leaves and where it sticks.
 TEST(Suction, BelongsToTheEnergyBalance) {
   for (const Transition transition : {Transition::A, Transition::B})
     for (const double D : {0.05, 0.3, 0.8})
@@ -178,7 +180,7 @@ TEST(Suction, BelongsToTheEnergyBalance) {
       }
 }
 
-// The path into the potential -F_a d is the path out of it, at any speed and with both schemes.
+// Suction is conservative: without a dashpot the ball leaves as fast as it came, with both schemes.
 TEST(Suction, HoldsNoBallBackWithoutADashpot) {
   for (const Transition transition : {Transition::A, Transition::B})
     for (const double speed : {0.02, 0.1, 1.0})
@@ -250,8 +252,7 @@ TEST(Suction, NeitherMovesNorHeatsAStickingPair) {
   }
 }
 
-// Two balls of a law that yields come to rest, from an impact, inside the plastic overlap, where the
-// unloading branch carries the suction.
+// After an impact with a strong dashpot the ball sticks on the line of unloading, k2 (d - d_p) = F_a.
 TEST(Suction, ActsOverThePlasticOverlap) {
   const double k2 = 3.0 * k, suction = 0.5 * std::sqrt(k * m), dt = 0.02 / w0;
   YieldLaw law(k, k2, coefficient(0.5), Transition::B, 0.0);
@@ -265,15 +266,16 @@ TEST(Suction, ActsOverThePlasticOverlap) {
   EXPECT_NEAR(ball.v, 0.0, 1e-9);
 }
 
-// Without a dashpot, at 1 m/s: the ball is at rest at the overlap D, k D^2/2 - F_a D = m/2. Unloading gives
-// back (k D)^2/(2 k2), of which suction takes F_a D; where that is more, the ball sticks.
+// Without a dashpot, at 1 m/s: the ball comes to rest at the overlap d_max, with k d_max^2/2 - F_a d_max =
+// m/2. Unloading gives back (k d_max)^2/(2 k2), and separation takes F_a d_max; if that is more, the ball
+// sticks.
 TEST(Suction, TakesItsPartOfWhatAYieldedContactGivesBack) {
   const double k2 = 3.0 * k, dt = M_PI / (w0 * 800.0);
   for (const Transition transition : {Transition::A, Transition::B})
     for (const double share : {0.0, 0.05, 0.1, 0.3}) {
       const double suction = share * std::sqrt(k * m);
-      const double D = (suction + std::sqrt(suction * suction + k * m)) / k;
-      const double back = 0.5 * k * k * D * D / k2 - suction * D;
+      const double d_max = (suction + std::sqrt(suction * suction + k * m)) / k;
+      const double back = 0.5 * k * k * d_max * d_max / k2 - suction * d_max;
       verlet::SecondOrderBall<YieldLaw> ball(m, 0.3 * dt, -1.0, dt,
                                              {{0.0, 1.0, {k, k2, 0.0, transition, 0.0}, {}, suction}});
       double largest = 0.0;
@@ -281,7 +283,7 @@ TEST(Suction, TakesItsPartOfWhatAYieldedContactGivesBack) {
         ball.step();
         largest = std::max(largest, -ball.x);
       }
-      EXPECT_NEAR(largest, D, 1e-4 * D) << share;
+      EXPECT_NEAR(largest, d_max, 1e-4 * d_max) << share;
       if (back > 0.0) {
         EXPECT_NEAR(ball.v, std::sqrt(2.0 * back / m), 2e-3) << share;
       } else {

@@ -55,8 +55,7 @@ TEST(YieldLaw, IsTheLinearLawWhereUnloadingIsNotStiffer) {
       }
 }
 
-// A law that remembers is the same function of the overlap before and after it has taken up the end of its
-// step.
+// At the overlap at the end of a step, remember() changes no bit of the force.
 TEST(YieldLaw, HasTheSameBitsWithWhatItRemembersAtTheEndOfItsStep) {
   for (const double largest : {0.0, 3e-4, 1e-3, 2e-3})
     for (const double d : {1e-5, 7.1e-4, 1e-3, 1.3e-3}) {
@@ -73,7 +72,7 @@ TEST(YieldLaw, HasTheSameBitsWithWhatItRemembersAtTheEndOfItsStep) {
     }
 }
 
-// Along any path the work is what is stored and the heat, of which yielding is all without a dashpot.
+// Along any path the work is the stored energy and the heat; without a dashpot all heat is that of yielding.
 TEST(YieldLaw, StoresThePartOfItsWorkThatItGivesBack) {
   YieldLaw law(1e7, 3e7, 0.0, Transition::B, 0.0);
   double work = 0.0, heat = 0.0, before = 0.0;
@@ -108,20 +107,21 @@ double work_of(YieldLaw &law, double from, double to) {
   return work;
 }
 
-// A cycle to D and back to nothing turns (1 - k1/k2) k1 D^2 / 2 into heat, the same cycle again nothing, and
-// a further one the difference. The plastic overlap is (1 - k1/k2) D.
+// A cycle from 0 to the overlap d_max and back turns (1 - k1/k2) k1 d_max^2 / 2 into heat. The same cycle
+// again turns none, and a cycle to a larger overlap the difference. The plastic overlap is (1 - k1/k2) d_max.
 TEST(YieldLaw, LoopHasTheHeatAndThePlasticOverlapOfTheClosedForms) {
   for (const double ratio : {1.5, 4.0, 20.0}) {
     YieldLaw law = contact_of(Transition::B, 0.0, ratio).law(m, 0.0, 0.0);
-    const double q = 1.0 / ratio, D = 1e-3, loop = 0.5 * (1.0 - q) * k1 * D * D, size = 0.5 * k1 * D * D;
-    const double there = work_of(law, 0.0, D);
+    const double q = 1.0 / ratio, d_max = 1e-3, loop = 0.5 * (1.0 - q) * k1 * d_max * d_max,
+                 size = 0.5 * k1 * d_max * d_max;
+    const double there = work_of(law, 0.0, d_max);
     EXPECT_NEAR(there, size, 1e-7 * size);
-    EXPECT_NEAR(law.energy(D), q * size, 1e-12 * size);
-    EXPECT_NEAR(-work_of(law, D, 0.0), law.energy(D), 1e-7 * size) << "what unloading gives back";
-    EXPECT_NEAR(law.yielded(0.5 * D), loop, 1e-12 * size);
-    EXPECT_NEAR(work_of(law, 0.0, D) + work_of(law, D, 0.0), 0.0, 1e-7 * size);
-    EXPECT_NEAR(work_of(law, 0.0, 2.0 * D) + work_of(law, 2.0 * D, 0.0), 3.0 * loop, 1e-6 * size);
-    const double plastic = (1.0 - q) * 2.0 * D;
+    EXPECT_NEAR(law.energy(d_max), q * size, 1e-12 * size);
+    EXPECT_NEAR(-work_of(law, d_max, 0.0), law.energy(d_max), 1e-7 * size) << "what unloading gives back";
+    EXPECT_NEAR(law.yielded(0.5 * d_max), loop, 1e-12 * size);
+    EXPECT_NEAR(work_of(law, 0.0, d_max) + work_of(law, d_max, 0.0), 0.0, 1e-7 * size);
+    EXPECT_NEAR(work_of(law, 0.0, 2.0 * d_max) + work_of(law, 2.0 * d_max, 0.0), 3.0 * loop, 1e-6 * size);
+    const double plastic = (1.0 - q) * 2.0 * d_max;
     EXPECT_EQ(law.spring(0.999999 * plastic), 0.0);
     EXPECT_GT(law.spring(1.000001 * plastic), 0.0);
   }
@@ -212,8 +212,8 @@ INSTANTIATE_TEST_SUITE_P(, YieldImpact,
                                          Case{Transition::B, 2.0, 3.0}),
                          name_of);
 
-// Under A a strong dashpot stops the ball inside the plastic overlap, at once in the closed form, by an
-// exponential function in time.
+// Under A a strong dashpot stops the ball before the overlap is zero: the speed falls exponentially, and the
+// closed form gives e = 0.
 TEST(YieldRestitution, IsNoneWhereADashpotStopsTheBallInsideThePlasticOverlap) {
   EXPECT_EQ(restitution_of_yield(Transition::A, 0.3, 4.0), 0.0);
   EXPECT_EQ(by_cvode(Transition::A, 0.3, 4.0, 1.0), 0.0);

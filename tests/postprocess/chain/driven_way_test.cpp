@@ -234,7 +234,8 @@ TEST(DrivenWay, AStepCanEndAContactOrBeginOne) {
       return -p.k * x - 2.0 * D * std::sqrt(p.m2 * p.k) * v;
     };
     const ChainHistory standing = solve_closed_form(p, 10, 1000).history;
-    std::size_t row = 5000; // the last one of the contact, with the other D beyond it
+    // The first row, after five cycles, at which the other damping turns compression into tension (or back).
+    std::size_t row = 5000;
     while (row < standing.size() &&
            !(standing.x_drum[row] < 0.0 &&
              (law(p.D, standing.x_drum[row], standing.v_drum[row]) > 0.0) == ends &&
@@ -275,7 +276,8 @@ TEST(DrivenWay, AStaircaseConvergesToTheRamp) {
   EXPECT_LT(errors[2], 5e-3);
 }
 
-// Behind a step both steady states, as soon as the motion that the step has set off has decayed.
+// Before and behind a step of the soil the motion reaches the steady state of that soil once transients have
+// decayed: 60 cycles here.
 TEST(DrivenWay, TheSteadyStateIsReachedBehindAStep) {
   for (const Transition transition : {Transition::A, Transition::B}) {
     const ChainParameters p = roller(transition);
@@ -297,7 +299,8 @@ TEST(DrivenWay, TheSteadyStateIsReachedBehindAStep) {
   }
 }
 
-// Over a symmetric way, from the same state and phase, the way back is the way forth.
+// Over a symmetric way a pass back has the same motion as a pass forth that starts in the same state and
+// phase of the exciter.
 TEST(DrivenWay, BackIsForthOverASymmetricWay) {
   const ChainParameters p = roller(Transition::B);
   const Way way = {{0.0, 3e7, 0.4}, {2.0, 3e7, 0.4}, {2.0, 9e7, 0.3},
@@ -315,7 +318,7 @@ TEST(DrivenWay, BackIsForthOverASymmetricWay) {
   }
 }
 
-// Moments of a long field: those of k, and of ln k at a distance.
+// Mean and coefficient of variation of k, and autocorrelation of ln k, of a long field.
 TEST(DrivenWay, ARandomFieldHasTheMomentsAskedFor) {
   RandomSoil soil;
   soil.mean = 5e7;

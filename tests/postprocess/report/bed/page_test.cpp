@@ -268,8 +268,9 @@ TEST_F(BedReport, DrawsAmplitudeAndPhaseOfTheDrum) {
   EXPECT_NEAR(table.numbers("phase (degrees)")[2], 53.13010235 - 90.0, 1e-6);
 }
 
-// a_drum is a saw of eight rows in each cycle, 0 to 7: its harmonics are those of the sum of a geometric
-// series, |a_n| = 2 / 8 * 8 / |exp(-2 pi i n / 8) - 1|, and there is nothing between them.
+// a_drum is a sawtooth, 0 to 7 in the eight rows of each cycle. The discrete Fourier sum of 0, 1, ..., 7 is
+// 8 / (exp(-2 pi i n / 8) - 1), so that harmonic n has the amplitude 2 / |exp(-2 pi i n / 8) - 1|; between
+// the harmonics the spectrum is zero.
 TEST_F(BedReport, DrawsTheSpectrum) {
   const std::vector<BedResult> beds = {result("B")};
   const PageFigure figure = figure_of(plan_bed_figures(group_beds(beds)), "bed1_spectrum");
