@@ -89,12 +89,15 @@ void FixStepping::init() {
   comm_reverse =
       most_gathered; // for which the engine makes room at the begin of each run; gather() may ask for less
   observers_.find(*modify);
-  moved_bits_ = free_bits_ = 0;
+  moved_bits_ = travelling_bits_ = free_bits_ = 0;
+  prescribed_bits_ = {};
   dt_varies_ = false;
-  for (const Fix *fix : drumlin::engine::fixes(modify)) {
+  for (Fix *fix : drumlin::engine::fixes(modify)) {
     const std::string name = fix->style;
     if (moves(name))
       moved_bits_ |= fix->groupbit;
+    else if (name == "drum/travel")
+      add_travelling(*fix);
     else if (fix->time_integrate != 0 || name == "freeze" || name.rfind("multisphere", 0) == 0)
       free_bits_ |= fix->groupbit;
     dt_varies_ = dt_varies_ || drumlin::changes_time_step(name);
@@ -108,6 +111,14 @@ void FixStepping::init() {
         constraints_.push_back(
             {fix, drumlin::engine::reaction(fix), joins(name), static_cast<double *>(body_force), {}});
       }
+}
+
+/// A fix that prescribes the velocity of its group along an axis.
+void FixStepping::add_travelling(Fix &fix) {
+  int dimensions = 0;
+  const auto *axis = static_cast<const int *>(fix.extract("axis", dimensions));
+  prescribed_bits_[static_cast<std::size_t>(*axis)] |= fix.groupbit;
+  travelling_bits_ |= fix.groupbit;
 }
 
 void FixStepping::setup_pre_force(int) {
@@ -363,7 +374,7 @@ void FixStepping::solve_coupled() {
     double *star = velocity_[i]; // overwrites v(t), which this step no longer needs
     const double kick = is_unchanged(i) ? 0.0 : 0.5 * update->dt / atom->rmass[i]; // 0: forces do not move it
     for (std::size_t a = 0; a < 3; ++a)
-      star[a] = v[a] + (is_driven(i, a) ? 0.0 : kick) * f[i][a];
+      star[a] = is_driven(i, a) ? 2.0 * v[a] - star[a] : v[a] + kick * f[i][a];
   }
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
   if (force->newton_pair) gather(most_gathered);

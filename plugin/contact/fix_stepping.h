@@ -79,9 +79,21 @@ public:
     for (std::size_t a = 0; a < 3; ++a)
       if (!is_driven(i, a)) velocity_[i][a] -= 0.5 * update->dt * change[a] / atom->rmass[i];
   }
+  /// Announces that a fix prescribes the velocity of owned ball i along an axis in this step: the present one
+  /// is the mean of the step. \param before m/s: twice the present one less it is that of the end of the
+  /// step. To be called within the integration, after open_step().
+  void prescribe(int i, int axis, double before) { velocity_[i][axis] = before; }
+  /// Sum over this rank's balls of a group of the forces, N, that act in the next drift only: part of the
+  /// forces on balls from the end of a step until the integration of the next.
+  std::array<double, 3> position_corrections(int bits) const {
+    std::array<double, 3> total{};
+    for (const Later &item : shifts_)
+      if (atom->mask[item.i] & bits) total = drumlin::physics::sum(total, 1.0, item.shift);
+    return total;
+  }
   /// Whether there are balls whose motion, in one direction at least, does not depend on the forces on them:
-  /// those of fix move, and those that no fix integrates. For this scheme they have infinite mass in these
-  /// directions.
+  /// those of fix move and fix drum/travel, and those that no fix integrates. For this scheme they have
+  /// infinite mass in these directions.
   bool any_moved() const { return any_moved_; }
   /// Effective mass, kg, with which a contact changes the velocities of its balls: `m_eff` of the contact law
   /// unless one of them is moved. Infinite if both are. \param j below 0: a wall \param normal unit vector
@@ -224,15 +236,20 @@ private:
   /// ball.
   double *row(int i) const { return velocity_[0] + static_cast<std::ptrdiff_t>(i) * shared; }
   void expect_contacts();
+  void add_travelling(Fix &fix);
   void look_for_moved();
   void follow_moved();
   /// Whether the motion of ball i (owned or ghost) does not depend on the forces on it, in one direction at
   /// least.
   bool is_moved(int i) const {
-    return any_moved_ && ((atom->mask[i] & moved_bits_) != 0 || (atom->mask[i] & free_bits_) == 0);
+    return any_moved_ &&
+           ((atom->mask[i] & (moved_bits_ | travelling_bits_)) != 0 || (atom->mask[i] & free_bits_) == 0);
   }
-  /// Whether a component of the velocity of ball i is the same before and after the opening half kick.
-  bool is_unchanged(int i, std::size_t a) const { return velocity_[i][a] == atom->v[i][a]; }
+  /// Whether a component of the velocity of ball i is the same before and after the opening half kick, or is
+  /// prescribed.
+  bool is_unchanged(int i, std::size_t a) const {
+    return velocity_[i][a] == atom->v[i][a] || (atom->mask[i] & prescribed_bits_[a]) != 0;
+  }
   bool is_unchanged(int i) const { return is_unchanged(i, 0) && is_unchanged(i, 1) && is_unchanged(i, 2); }
   double moving_mass_of_moved(int i, int j, const std::array<double, 3> &normal, double m_eff) const;
   void take_masses();
@@ -253,7 +270,9 @@ private:
   bool counting_ = false; // whether the contacts of this step are counted
   bool counted_ = false;  // whether those of the last were
   bool any_moved_ = false;
-  int moved_bits_ = 0;         // groups of the fixes that move balls otherwise than by the forces on them
+  int moved_bits_ = 0;      // groups of the fixes that move balls otherwise than by the forces on them
+  int travelling_bits_ = 0; // groups of the fixes that prescribe the velocity along an axis,
+  std::array<int, 3> prescribed_bits_{}; // and the same for each axis
   int free_bits_ = 0;          // groups of those that integrate, and of frozen balls, whose contacts know it
   bool relative_ = false;      // whether rows of owned balls hold v+ - v(t) in place of v(t)
   std::uint64_t masses_ = 0;   // sum of the bits of the masses of owned balls: changes when a mass does

@@ -1,5 +1,7 @@
 #include "fixes/bed_sums.h"
 
+#include "fixes/fix_drum_travel.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -125,6 +127,10 @@ BallSums BedSums::balls(const Vec3 &axis, double window_top) const {
     mine.soil_balls += 1.0;
     mine.solid += (flat ? pi * r * r : 4.0 / 3.0 * pi * r * r * r) * part_below(window_top, height, r);
   }
+  for (const LAMMPS_NS::Fix *fix : engine::fixes(lmp_->modify))
+    if (const auto *travel = dynamic_cast<const LAMMPS_NS::FixDrumTravel *>(fix);
+        travel && lmp_->comm->me == 0)
+      mine.kinetic += travel->further_kinetic();
   return over_ranks(mine, lmp_->world);
 }
 

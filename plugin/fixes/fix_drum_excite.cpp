@@ -2,6 +2,7 @@
 
 #include "support/arguments.h"
 #include "contact/fix_stepping.h"
+#include "fixes/fix_drum_travel.h"
 #include "support/restart_record.h"
 
 #include <fmt/format.h>
@@ -52,6 +53,8 @@ void FixDrumExcite::parse(int narg, char **arg) {
       given_direction_ = in.direction("keyword direction");
     else if (keyword == "axis")
       axis_ = in.direction("keyword axis");
+    else if (keyword == "travel")
+      travel_id_ = in.word("keyword travel", "the ID of a fix drum/travel");
     else
       parse_excitation(in, keyword);
   }
@@ -88,8 +91,9 @@ void FixDrumExcite::parse_excitation(drumlin::Arguments &in, const std::string &
   } else if (keyword == "mode") {
     excitation_.rotating = in.choice("keyword mode", {"directed", "rotating"}) == 1;
   } else {
-    in.fail("keyword", keyword,
-            "amplitude, eccentric, omega, frequency, phase, start, ramp, sweep, direction, mode or axis");
+    in.fail(
+        "keyword", keyword,
+        "amplitude, eccentric, omega, frequency, phase, start, ramp, sweep, direction, mode, axis or travel");
   }
 }
 
@@ -103,6 +107,11 @@ void FixDrumExcite::init() {
                    "fix drum/excite: group is '{}', which is empty; allowed: a group with at least one ball",
                    group->names[igroup])));
   mass_ = group->mass(igroup);
+  travel_ = dynamic_cast<FixDrumTravel *>(engine::find_fix(modify, travel_id_));
+  if (!travel_id_.empty() && travel_ == nullptr)
+    error->all(FLERR, engine::error_text(fmt::format(
+                          "fix drum/excite: keyword travel is '{}'; allowed: the ID of a fix drum/travel",
+                          travel_id_)));
   stepping_ = FixStepping::find(lmp);
   if (given_direction_) {
     direction_ = *given_direction_;
@@ -182,11 +191,15 @@ void FixDrumExcite::post_force(int) {
 
 double FixDrumExcite::now() const { return clock_.time(update->ntimestep); }
 
+/// Present amplitude over that without a roller that drives.
+double FixDrumExcite::vibration() const { return travel_ != nullptr ? travel_->vibration() : 1.0; }
+
 FixDrumExcite::Vector FixDrumExcite::force_now() const {
   const std::array<double, 2> part = physics::excitation_components(excitation_, now());
+  const double share = vibration();
   Vector F{};
   for (std::size_t a = 0; a < 3; ++a)
-    F[a] = part[0] * direction_[a] + part[1] * normal_[a];
+    F[a] = share * (part[0] * direction_[a] + part[1] * normal_[a]);
   return F;
 }
 
@@ -197,7 +210,7 @@ void FixDrumExcite::write_restart(FILE *file) {
 
 void FixDrumExcite::restart(char *buffer) { clock_.restore(reinterpret_cast<const double *>(buffer)); }
 
-double FixDrumExcite::compute_scalar() { return physics::excitation_force(excitation_, now()); }
+double FixDrumExcite::compute_scalar() { return vibration() * physics::excitation_force(excitation_, now()); }
 
 double FixDrumExcite::compute_vector(int n) {
   if (n < 3) return force_now()[static_cast<std::size_t>(n)];

@@ -7,6 +7,7 @@
 #include "support/clock.h"
 
 #include <optional>
+#include <string>
 
 namespace drumlin {
 class Arguments;
@@ -38,15 +39,18 @@ private:
   void parse(int narg, char **arg);
   void parse_excitation(drumlin::Arguments &in, const std::string &keyword);
   double now() const;
+  double vibration() const;
   Vector force_now() const;
 
   drumlin::physics::Excitation excitation_;
   std::optional<Vector> given_direction_;
   std::optional<Vector> axis_; // of rotation
   Vector direction_{};
-  Vector normal_{}; // axis x direction: direction of the second component of a rotating force
-  class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
-  Vector acted_{};                        // force of the last step
+  Vector normal_{};       // axis x direction: direction of the second component of a rotating force
+  std::string travel_id_; // empty: the roller does not drive
+  const class FixDrumTravel *travel_ = nullptr; // since the initialization of the run
+  class FixStepping *stepping_ = nullptr;       // nullptr under stock stepping
+  Vector acted_{};                              // force of the last step
   drumlin::Clock clock_;
   double mass_ = 0.0;      // of the group
   std::vector<int> balls_; // of the group on this rank, in this step

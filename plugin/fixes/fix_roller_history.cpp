@@ -4,6 +4,7 @@
 #include "fixes/fix_bond_spring.h"
 #include "fixes/fix_boundary_absorb.h"
 #include "fixes/fix_drum_excite.h"
+#include "fixes/fix_drum_travel.h"
 #include "support/arguments.h"
 #include "support/other_styles.h"
 #include "support/restart_record.h"
@@ -60,6 +61,8 @@ void FixRollerHistory::parse(int narg, char **arg) {
       excite_id_ = in.word("keyword excite", "the ID of a fix drum/excite");
     } else if (keyword == "bond") {
       bond_id_ = in.word("keyword bond", "the ID of a fix bond/spring");
+    } else if (keyword == "travel") {
+      travel_id_ = in.word("keyword travel", "the ID of a fix drum/travel");
     } else if (keyword == "axis") {
       axis_ = in.direction("keyword axis");
       has_axis_ = true;
@@ -70,7 +73,8 @@ void FixRollerHistory::parse(int narg, char **arg) {
     } else if (keyword == "append") {
       append_ = in.choice("keyword append", {"yes", "no"}) == 0;
     } else {
-      in.fail("keyword", keyword, "file, every, cycles, frame, soil, excite, bond, axis, origin or append");
+      in.fail("keyword", keyword,
+              "file, every, cycles, frame, soil, excite, bond, travel, axis, origin or append");
     }
   }
   if (file_name_.empty()) in.fail("keyword file is missing; allowed: file NAME every N");
@@ -151,7 +155,7 @@ void FixRollerHistory::init() {
   gravity_ = -along(g.data());
 }
 
-/// The fixes that the keywords excite and bond name, and the absorbing boundaries of a bed.
+/// The fixes that the keywords excite, bond and travel name, and the absorbing boundaries of a bed.
 void FixRollerHistory::find_partners() {
   excite_ = dynamic_cast<FixDrumExcite *>(engine::find_fix(modify, excite_id_));
   if (!excite_id_.empty() && excite_ == nullptr)
@@ -163,6 +167,11 @@ void FixRollerHistory::find_partners() {
     error->all(FLERR, engine::error_text(fmt::format(
                           "fix roller/history: keyword bond is '{}'; allowed: the ID of a fix bond/spring",
                           bond_id_)));
+  travel_ = dynamic_cast<FixDrumTravel *>(engine::find_fix(modify, travel_id_));
+  if (!travel_id_.empty() && travel_ == nullptr)
+    error->all(FLERR, engine::error_text(fmt::format(
+                          "fix roller/history: keyword travel is '{}'; allowed: the ID of a fix drum/travel",
+                          travel_id_)));
   ground_.clear();
   if (!bed_) return;
   for (const Fix *fix : engine::fixes(modify))
@@ -200,12 +209,13 @@ void FixRollerHistory::open_files() {
   if (!file_) {
     file_.emplace(file_name_, append_);
     file_->open(comm, error, world, file_keyword,
-                drumlin::history_header(frame_.groupbit != 0, bed_.has_value()).c_str());
+                drumlin::history_header(frame_.groupbit != 0, bed_.has_value(), travel_ != nullptr).c_str());
   }
   if (steps_per_cycle_ > 0 && !cycles_file_) {
     cycles_file_.emplace(cycles_name_, append_);
-    cycles_file_->open(comm, error, world, cycles_keyword,
-                       drumlin::cycles_header(bed_.has_value(), !ground_.empty(), yields()).c_str());
+    cycles_file_->open(
+        comm, error, world, cycles_keyword,
+        drumlin::cycles_header(bed_.has_value(), !ground_.empty(), yields(), travel_ != nullptr).c_str());
   }
 }
 
@@ -315,14 +325,18 @@ std::optional<drumlin::BedSample> FixRollerHistory::bed_sample() const {
 void FixRollerHistory::write_sample() {
   last_sample_ = update->ntimestep;
   const std::optional<drumlin::BedSample> bed = bed_sample();
-  drumlin::write_row(file_->get(), drumlin::history_row(state_, cycle_, masses(), frame_.groupbit != 0,
-                                                        bed ? &*bed : nullptr));
+  std::vector<double> row =
+      drumlin::history_row(state_, cycle_, masses(), frame_.groupbit != 0, bed ? &*bed : nullptr);
+  if (travel_ != nullptr)
+    row.insert(row.end(), {travel_->state().place, static_cast<double>(travel_->state().pass)});
+  drumlin::write_row(file_->get(), row);
 }
 
 void FixRollerHistory::write_cycle() {
   const std::optional<drumlin::BedSample> bed = bed_sample();
-  drumlin::write_row(cycles_file_->get(),
-                     drumlin::cycles_row(state_, cycle_, masses(), bed ? &*bed : nullptr));
+  std::vector<double> row = drumlin::cycles_row(state_, cycle_, masses(), bed ? &*bed : nullptr);
+  if (travel_ != nullptr) row.push_back(travel_->work());
+  drumlin::write_row(cycles_file_->get(), row);
 }
 
 /// Called once a cycle and at the end of a run, so that a full disk ends the run soon and readers of the

@@ -19,6 +19,7 @@
 namespace LAMMPS_NS {
 
 class FixDrumExcite;
+class FixDrumTravel;
 class FixBondSpring;
 class FixBoundaryAbsorb;
 
@@ -73,7 +74,7 @@ private:
   bool yields() const;
   double along(const double *vector) const;
 
-  std::string file_name_, cycles_name_, excite_id_, bond_id_, frame_group_;
+  std::string file_name_, cycles_name_, excite_id_, bond_id_, travel_id_, frame_group_;
   bool append_ = false;
   int every_ = 0;           // steps between rows
   int steps_per_cycle_ = 0; // 0: no cycles file
@@ -83,6 +84,7 @@ private:
   std::optional<drumlin::OutputFile> file_, cycles_file_;
   const drumlin::ContactSource *source_ = nullptr;
   FixDrumExcite *excite_ = nullptr;
+  FixDrumTravel *travel_ = nullptr;
   FixBondSpring *bond_ = nullptr;
   std::vector<const FixBoundaryAbsorb *> ground_; // absorbing boundaries of the bed
   drumlin::Clock clock_;

@@ -8,6 +8,7 @@
 #include "fixes/fix_contact_events.h"
 #include "fixes/fix_contact_local.h"
 #include "fixes/fix_drum_excite.h"
+#include "fixes/fix_drum_travel.h"
 #include "fixes/fix_guard.h"
 #include "fixes/fix_roller_history.h"
 
@@ -23,6 +24,7 @@ struct FixType {
 template <class Add>
 void for_each_fix(Add &&add) {
   add(FixType<LAMMPS_NS::FixDrumExcite>(), "drum/excite", "harmonic excitation of a drum");
+  add(FixType<LAMMPS_NS::FixDrumTravel>(), "drum/travel", "a roller that drives");
   add(FixType<LAMMPS_NS::FixBondSpring>(), "bond/spring", "bonded spring-dashpot");
   add(FixType<LAMMPS_NS::FixBoundaryAbsorb>(), "boundary/absorb", "boundary of balls that absorbs waves");
   add(FixType<LAMMPS_NS::FixClump>(), "clump", "rigid body that does not rotate");

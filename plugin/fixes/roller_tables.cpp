@@ -2,13 +2,15 @@
 
 namespace drumlin {
 
-std::string history_header(bool with_frame, bool with_bed) {
-  if (!with_frame) return "time,x_drum,v_drum,a_drum,F_contact,F_excitation";
+std::string history_header(bool with_frame, bool with_bed, bool travels) {
+  const std::string way = travels ? ",s,pass" : "";
+  if (!with_frame) return "time,x_drum,v_drum,a_drum,F_contact,F_excitation" + way;
   const std::string roller =
       "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond";
-  return with_bed ? roller + ",settlement,overlap_ratio,coordination,void_ratio,kinetic,potential,elastic,"
-                             "dissipated,work_excitation,F_floor,F_sides,F_thrust"
-                  : roller;
+  return (with_bed ? roller + ",settlement,overlap_ratio,coordination,void_ratio,kinetic,potential,elastic,"
+                              "dissipated,work_excitation,F_floor,F_sides,F_thrust"
+                   : roller) +
+         way;
 }
 
 std::vector<double> history_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,
@@ -32,13 +34,14 @@ std::vector<double> history_row(const RollerState &state, const CycleSums &cycle
   return row;
 }
 
-std::string cycles_header(bool with_bed, bool absorbs, bool yields) {
+std::string cycles_header(bool with_bed, bool absorbs, bool yields, bool travels) {
+  const std::string work = travels ? ",work_travel" : "";
   std::string columns = "cycle,time,a_drum_min,a_drum_max,F_contact_min,F_contact_max,contact_share,a1_cos,"
                         "a1_sin,a2_cos,a2_sin,ah_cos,ah_sin,work_excitation,dissipated_contact,dissipated_"
                         "bond,kinetic,potential,stored_contact,stored_bond";
-  if (!with_bed) return columns;
+  if (!with_bed) return columns + work;
   return columns + ",dissipated_friction,settlement" + (absorbs ? ",stored_ground,dissipated_ground" : "") +
-         (yields ? ",dissipated_yield" : "");
+         (yields ? ",dissipated_yield" : "") + work;
 }
 
 std::vector<double> cycles_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,

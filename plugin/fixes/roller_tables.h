@@ -31,13 +31,14 @@ struct BedSample {
 };
 
 /// Header line of the samples, and a row. \param bed nullptr: not a bed; otherwise `with_frame` must be true
-std::string history_header(bool with_frame, bool with_bed);
+/// \param travels whether place and pass follow the row
+std::string history_header(bool with_frame, bool with_bed, bool travels);
 std::vector<double> history_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,
                                 bool with_frame, const BedSample *bed);
 
 /// Header line of the cycles, and a row. \param bed nullptr: not a bed \param absorbs, yields those of
-/// BedSample
-std::string cycles_header(bool with_bed, bool absorbs, bool yields);
+/// BedSample \param travels whether the work of what drives the roller follows the row
+std::string cycles_header(bool with_bed, bool absorbs, bool yields, bool travels);
 std::vector<double> cycles_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,
                                const BedSample *bed);
 

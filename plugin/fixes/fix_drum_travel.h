@@ -1,0 +1,100 @@
+#pragma once
+// fix drum/travel: a roller that drives. See plugin/doc/fix_drum_travel.md.
+
+#include "contact/deck_check.h"
+#include "engine.h"
+#include "physics/bodies/travel.h"
+#include "support/clock.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace drumlin {
+class Arguments;
+}
+
+namespace LAMMPS_NS {
+
+/// Prescribes the motion of a group along an axis of the box, and the rotation of its drum. It replaces
+/// positions and velocities after the engine's fixes have integrated them, and computes force, torque and
+/// work of what drives the roller from the forces that it overrules.
+class FixDrumTravel : public Fix {
+public:
+  FixDrumTravel(LAMMPS *, int, char **);
+
+  int setmask() override;
+  void init() override;
+  void setup_pre_exchange() override;
+  void setup(int) override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  /// Duration of the programme, s.
+  double compute_scalar() override;
+  /// 0: pass; 1: place, m; 2: its rate, m/s; 3: traction, N; 4: torque, N m; 5, 6: work of the two, J; 7:
+  /// time on the fix's clock, s; 8: angular velocity of the drum about its axle, rad/s.
+  double compute_vector(int) override;
+  /// "axis": the index of the axis along which the motion of the group does not depend on forces.
+  void *extract(const char *name, int &dimensions) override;
+
+  const drumlin::physics::Travel &travel() const { return travel_; }
+  /// The roller at the end of the present step.
+  const drumlin::physics::TravelState &state() const { return now_; }
+  /// Amplitude of the vibration over its full one, 0 to 1: that of the speed.
+  double vibration() const { return std::fabs(now_.velocity) / travel_.speed; }
+  /// Work of traction and torque on the group, J.
+  double work() const { return work_ + torque_work_; }
+  /// Kinetic energy, J, that the drum has beyond that of a ball of its mass: of a given moment of inertia.
+  double further_kinetic() const;
+
+private:
+  enum class Rotation { none, driven, towed };
+  /// Sums over the balls of the group, of all ranks.
+  struct Sums {
+    double force = 0.0;  // N, along the axis
+    double torque = 0.0; // N m, on the drum about its axle
+    double mass = 0.0;   // kg
+  };
+
+  void parse(int narg, char **arg);
+  void refuse_order();
+  void find_axle();
+  void find_drum();
+  void begin();
+  void refuse_leaving(double least, double most) const;
+  Sums sums(bool opening) const;
+  void rotate(double spin);
+  void note_places();
+  double on_grid(double place) const;
+  double spin_change(double torque) const;
+
+  drumlin::physics::Travel travel_;
+  int axis_ = 0;
+  Rotation rotation_ = Rotation::none;
+  std::optional<double> radius_, inertia_; // as given, m, kg m2
+  std::optional<std::array<double, 3>> up_;
+  int drum_group_ = -1, drum_bit_ = 0;
+
+  class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
+  drumlin::Clock clock_;
+  drumlin::physics::TravelState before_, now_; // at the begin and the end of the step
+  std::vector<std::pair<int, double>> places_; // of this rank's balls at the end of the last step: ID, m
+  std::array<double, 3> axle_{}; // about which the drum rolls when it drives towards greater places
+  double rolling_radius_ = 0.0;  // m
+  double drum_inertia_ = 0.0;    // kg m2
+  double ball_inertia_ = 0.0;    // kg m2, with which the engine counts its energy
+  double spacing_ = 0.0;         // m, of the grid on which the positions along the axis lie; 0: not begun
+  double moved_ = 0.0;           // m, along the axis since the begin, a multiple of it
+  double spin_ = 0.0;            // rad/s, about the axle
+  double half_velocity_ = 0.0;   // m/s, the mean of the present step
+  double half_spin_ = 0.0;       // rad/s, the same
+  Sums opening_;                 // of the opening half kick of the step
+  double traction_ = 0.0, torque_ = 0.0;  // N, N m, means of the last step
+  double work_ = 0.0, torque_work_ = 0.0; // J
+  drumlin::DeckCheck deck_check_;
+  bool echoed_ = false;
+};
+
+} // namespace LAMMPS_NS
