@@ -6,6 +6,7 @@
 #include "physics/bodies/travel.h"
 #include "support/clock.h"
 
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -46,6 +47,8 @@ public:
   double vibration() const { return std::fabs(now_.velocity) / travel_.speed; }
   /// Work of traction and torque on the group, J.
   double work() const { return work_ + torque_work_; }
+  /// Traction, N, and torque, N m, means of the last step, and their works since the begin, J.
+  std::array<double, 4> drive() const { return {traction_, torque_, work_, torque_work_}; }
   /// Kinetic energy, J, that the drum has beyond that of a ball of its mass: of a given moment of inertia.
   double further_kinetic() const;
 

@@ -327,8 +327,11 @@ void FixRollerHistory::write_sample() {
   const std::optional<drumlin::BedSample> bed = bed_sample();
   std::vector<double> row =
       drumlin::history_row(state_, cycle_, masses(), frame_.groupbit != 0, bed ? &*bed : nullptr);
-  if (travel_ != nullptr)
+  if (travel_ != nullptr) {
     row.insert(row.end(), {travel_->state().place, static_cast<double>(travel_->state().pass)});
+    const std::array<double, 4> drive = travel_->drive();
+    if (bed) row.insert(row.end(), drive.begin(), drive.end());
+  }
   drumlin::write_row(file_->get(), row);
 }
 
