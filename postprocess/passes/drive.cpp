@@ -56,8 +56,9 @@ public:
           refusal("FOLDER", drive_.folder.string(),
                   "a run with dumps, dump/balls_STEP.vtp or .dump, at step 0 and at the end of each pass"));
     const long before = steps_.begin()->first;
-    if (std::abs(place_at(before) - drive_.history.s.front()) > standing) missing(0, 0);
-    drive_.states.push_back(read_bed_state(drive_.folder, before));
+    if (std::abs(drive_.history.s[row_at(before)] - drive_.history.s.front()) > standing) missing(0, 0);
+    drive_.states.push_back(read_dumped_bed(drive_.folder, before));
+    check_soil();
     for (const auto &[first, last] : ranges())
       if (!add(first, last)) break;
     if (drive_.passes.empty())
@@ -71,7 +72,6 @@ private:
     return static_cast<std::size_t>(
         std::clamp(std::round(place), 0.0, static_cast<double>(drive_.history.size() - 1)));
   }
-  double place_at(long step) const { return drive_.history.s[row_at(step)]; }
   long step_of(std::size_t row) const { return std::lround(drive_.history.time[row] / timestep_); }
 
   [[noreturn]] void missing(std::size_t pass, long step) const {
@@ -116,10 +116,13 @@ private:
       --pass.leaves;
     const bool driven = std::abs(s[last] - s[first]) >= drive_.measured.length() && pass.enters > first &&
                         pass.leaves < last && pass.enters < pass.leaves;
-    const long end = step_of(last), begin = number == 1 ? drive_.states.front().step : step_of(first);
+    // The instant at which the next pass begins belongs to both.
+    const std::size_t next = std::min(last + 1, s.size() - 1);
+    const long end = step_of(next), begin = drive_.states.back().step;
     const auto after = steps_.upper_bound(end);
     const long step = after == steps_.begin() ? -1 : std::prev(after)->first;
-    const bool dumped = step > begin && std::abs(place_at(step) - s[last]) <= standing;
+    const bool dumped =
+        step > begin && (row_at(step) == next || std::abs(s[row_at(step)] - s[last]) <= standing);
     if (!driven || !dumped) {
       if (!stopped && driven) missing(number, end);
       if (!stopped)
@@ -133,9 +136,36 @@ private:
     }
     for (auto at = steps_.upper_bound(begin); at != steps_.end() && at->first <= step; ++at)
       if (inside(row_at(at->first)) && !at->second.contacts.empty()) pass.passing.push_back(at->first);
-    drive_.states.push_back(read_bed_state(drive_.folder, step));
+    drive_.states.push_back(read_dumped_bed(drive_.folder, step));
     drive_.passes.push_back(std::move(pass));
+    check_place();
     return true;
+  }
+
+  /// Refuses a measured part that reaches beyond the soil.
+  void check_soil() const {
+    const WayPart &measured = drive_.measured;
+    Bounds soil;
+    for (const Ball &ball : drive_.states.front().balls)
+      if (is_soil(ball.type)) soil.add(ball);
+    if (soil.empty() || measured.from < soil.low[0] || measured.to > soil.high[0])
+      throw std::runtime_error(fmt::format(
+          "{}: the measured part is '{:g} to {:g} m'; allowed: one on the soil, {:.4g} to {:.4g} m",
+          (drive_.folder / "parameters.csv").string(), measured.from, measured.to, soil.low[0],
+          soil.high[0]));
+  }
+
+  /// Refuses passes that lead over other soil than the first one: in one direction only, on a periodic bed
+  /// that is longer than a pass. After a pass over all of such a bed the roller is where it began.
+  void check_place() const {
+    const auto direction = drive_.record.parameters.find("direction");
+    if (direction == drive_.record.parameters.end() || direction->second != "one") return;
+    for (const Ball &ball : drive_.states.back().balls)
+      if (ball.type == frame_type && drive_.history.pass.back() > 1.0 &&
+          std::abs(ball.position[0] - drive_.history.s.front()) > standing)
+        csv_refusal(drive_.folder / "parameters.csv", 0, "direction", direction->second,
+                    "both; or one, with passes as long as the periodic bed, so that all lead over the same "
+                    "soil");
   }
 
   Drive &drive_;
@@ -146,10 +176,10 @@ private:
 
 } // namespace
 
-BedState read_bed_state(const fs::path &folder, long step) {
+DumpedBed read_dumped_bed(const fs::path &folder, long step) {
   const Steps steps = dumped_steps(folder / "dump");
   const StepDump &dump = steps.at(step);
-  BedState state;
+  DumpedBed state;
   state.step = step;
   state.balls = read_ball_dump(dump.balls);
   if (!dump.contacts.empty()) state.contacts = read_contact_dump(dump.contacts, state.balls);
@@ -170,10 +200,11 @@ Drive read_drive(const fs::path &folder) {
   const auto number = [&](const char *name, const Range &range) {
     return number_of(folder, parameters, name, range);
   };
-  drive.measured = {number("measure_from", {-far, far, "m"}), number("measure_to", {-far, far, "m"})};
-  if (!(drive.measured.length() > 0.0))
+  const double from = number("measure_from", {-far, far, "m"}), to = number("measure_to", {-far, far, "m"});
+  drive.measured = {std::min(from, to), std::max(from, to)};
+  if (from == to)
     csv_refusal(folder / "parameters.csv", 0, "measure_to", parameters.at("measure_to"),
-                "more than measure_from");
+                "another place than measure_from");
   drive.speed = number("speed", {0.0, 1e3, "m/s", false, true});
   const double timestep = number("timestep", {0.0, 1.0, "s", false, true});
   drive.history = read_drive_history(folder / "bed.csv");
@@ -189,7 +220,7 @@ Drive read_drive(const fs::path &folder) {
   const auto dimension = parameters.find("dimension");
   drive.flat = dimension == parameters.end() ? in_a_plane(balls) : dimension->second != "3";
   if (!drive.flat) drive.thickness = number("thickness", {0.0, far, "m", false, true});
-  for (const BedState &state : drive.states)
+  for (const DumpedBed &state : drive.states)
     for (const Ball &ball : state.balls)
       drive.layers = std::max(drive.layers, layer_of(ball.type));
   return drive;

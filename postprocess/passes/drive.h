@@ -23,7 +23,7 @@ struct WayPart {
 };
 
 /// The bed at a dumped step.
-struct BedState {
+struct DumpedBed {
   long step = 0;
   std::vector<Ball> balls;
   std::optional<BedContacts> contacts; ///< not given if the step has no dump of them
@@ -47,12 +47,12 @@ struct Drive {
   bool flat = true;       ///< two dimensions
   int layers = 1;         ///< of soil, by the types of its balls
   std::vector<DrivenPass> passes;
-  std::vector<BedState> states;   ///< before the first pass and after each
+  std::vector<DumpedBed> states;  ///< before the first pass and after each
   std::vector<std::string> notes; ///< what was left out and why, sentences
 };
 
 /// The bed at one of the steps of DrivenPass::passing. Errors as read_drive().
-BedState read_bed_state(const std::filesystem::path &folder, long step);
+DumpedBed read_dumped_bed(const std::filesystem::path &folder, long step);
 
 /// Reads a run. A pass that the run did not finish is left out, with a note. std::runtime_error of one line:
 /// no drive, no pass finished, a dump that is missing, files that cannot be read.

@@ -71,7 +71,7 @@ VerticalLines lines_over(const Drive &drive, double spacing) {
   return lines;
 }
 
-LayerTops layer_tops(const Drive &drive, const BedState &state, const VerticalLines &lines) {
+LayerTops layer_tops(const Drive &drive, const DumpedBed &state, const VerticalLines &lines) {
   const auto rows =
       static_cast<std::size_t>(drive.flat ? 1.0 : std::max(1.0, std::round(drive.thickness / lines.spacing)));
   const double apart = drive.thickness / static_cast<double>(rows);
@@ -111,7 +111,7 @@ double mean_over(const std::vector<double> &heights, const VerticalLines &lines,
   return count > 0.0 ? sum / count : none;
 }
 
-SoilLayers soil_on(const Drive &drive, const BedState &state, const VerticalLines &lines,
+SoilLayers soil_on(const Drive &drive, const DumpedBed &state, const VerticalLines &lines,
                    const LayerTops &tops, const WayPart &part) {
   SoilLayers soil;
   std::vector<double> contents(tops.size(), 0.0);
@@ -153,8 +153,8 @@ double heave_of(const std::vector<double> &before, const std::vector<double> &af
   return largest;
 }
 
-std::vector<DepthRow> depth_profile(const Drive &drive, const BedState &state,
-                                    const std::vector<BedState> &loaded, double surface, double cell) {
+std::vector<DepthRow> depth_profile(const Drive &drive, const DumpedBed &state,
+                                    const std::vector<DumpedBed> &loaded, double surface, double cell) {
   double diameters = 0.0, count = 0.0;
   for (const Ball &ball : drive.states.front().balls)
     if (is_soil(ball.type)) {
@@ -199,7 +199,7 @@ std::vector<DepthRow> depth_profile(const Drive &drive, const BedState &state,
     });
   };
   if (loaded.empty() && state.contacts) add_stress(fields.stress, 1.0);
-  for (const BedState &one : loaded)
+  for (const DumpedBed &one : loaded)
     add_stress(coarse_grained(one.balls, one.contacts->balls, grid).stress,
                1.0 / static_cast<double>(loaded.size()));
   return rows;

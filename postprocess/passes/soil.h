@@ -30,7 +30,7 @@ double usual_spacing(const Drive &drive);
 /// highest point of the balls of this layer and of those below it; in three dimensions the mean across the
 /// bed. As drumlin/surface in the decks, whose last layer is all of the soil.
 using LayerTops = std::vector<std::vector<double>>;
-LayerTops layer_tops(const Drive &drive, const BedState &state, const VerticalLines &lines);
+LayerTops layer_tops(const Drive &drive, const DumpedBed &state, const VerticalLines &lines);
 
 /// Mean over the lines of a part of the way; NaN without such lines.
 double mean_over(const std::vector<double> &heights, const VerticalLines &lines, const WayPart &part);
@@ -43,7 +43,7 @@ struct SoilLayers {
 };
 
 /// Balls that reach over the ends of the part count with what lies inside, exactly.
-SoilLayers soil_on(const Drive &drive, const BedState &state, const VerticalLines &lines,
+SoilLayers soil_on(const Drive &drive, const DumpedBed &state, const VerticalLines &lines,
                    const LayerTops &tops, const WayPart &part);
 
 /// How much of a settlement is compaction, m: sum of h0 (1 - phi0/phi1) over the layers. What is left of the
@@ -68,7 +68,7 @@ struct DepthRow {
 /// diameters high; slices that lie wholly below the surface. Stresses are means over the way and over the
 /// states, and the largest of all cells; without states with contacts they have no value.
 /// \param loaded states from which the stresses are; empty: `state`
-std::vector<DepthRow> depth_profile(const Drive &drive, const BedState &state,
-                                    const std::vector<BedState> &loaded, double surface, double cell);
+std::vector<DepthRow> depth_profile(const Drive &drive, const DumpedBed &state,
+                                    const std::vector<DumpedBed> &loaded, double surface, double cell);
 
 } // namespace drumlin::post

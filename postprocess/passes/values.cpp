@@ -112,7 +112,7 @@ private:
   }
 
   void add_soil(std::size_t n) {
-    const BedState &state = drive_.states[n];
+    const DumpedBed &state = drive_.states[n];
     const LayerTops tops = layer_tops(drive_, state, result_.lines);
     result_.surfaces.push_back(tops.back());
     PassValues values;
@@ -258,10 +258,10 @@ private:
   }
 
   void add_depth(std::size_t n) {
-    std::vector<BedState> loaded;
+    std::vector<DumpedBed> loaded;
     if (n > 0)
       for (const long step : drive_.passes[n - 1].passing)
-        loaded.push_back(read_bed_state(drive_.folder, step));
+        loaded.push_back(read_dumped_bed(drive_.folder, step));
     for (const DepthRow &row :
          depth_profile(drive_, drive_.states[n], loaded, result_.passes[n].soil.surface, options_.cell))
       result_.depth.push_back({static_cast<int>(n), row, loaded.size()});
