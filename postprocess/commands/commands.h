@@ -32,6 +32,9 @@ void add_map_command(CLI::App &app, Session &session);
 /// `meter RECORD`: the values that a roller's meter shows, from a record of its motion.
 void add_meter_command(CLI::App &app, Session &session);
 
+/// `passes FOLDER...`: what each pass of a roller that drives over a bed leaves.
+void add_passes_command(CLI::App &app, Session &session);
+
 /// `report DIR... [--out report]`: reads run folders and writes a folder with index.html.
 void add_report_command(CLI::App &app, Session &session);
 

@@ -40,6 +40,7 @@ constexpr std::array subcommands = {
     Subcommand{"identify", &drumlin::post::add_identify_command},
     Subcommand{"map", &drumlin::post::add_map_command},
     Subcommand{"meter", &drumlin::post::add_meter_command},
+    Subcommand{"passes", &drumlin::post::add_passes_command},
     Subcommand{"report", &drumlin::post::add_report_command},
     Subcommand{"study", &drumlin::post::add_study_command},
     Subcommand{"vtk", &drumlin::post::add_vtk_command},

@@ -1,6 +1,7 @@
 // bed.csv of a run of a roller on a bed. Its columns that a chain has, too, are read by read_chain().
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -22,5 +23,23 @@ struct BedHistory {
 
 /// Reads these columns of a bed.csv. Throws std::runtime_error with file, line and column.
 BedHistory read_bed_history(const std::filesystem::path &file);
+
+/// The columns of the bed.csv of a roller that drives which say where it is and what drives it, a value for
+/// each row.
+struct DriveHistory {
+  std::vector<double> time;            ///< s
+  std::vector<double> s;               ///< m, place along the way
+  std::vector<double> pass;            ///< counted from 1; a pause belongs to the pass that has ended
+  std::vector<double> traction;        ///< N, positive towards greater s
+  std::vector<double> work_excitation; ///< J, since the start
+  std::vector<double> work_traction;   ///< J, since the start
+  std::vector<double> work_torque;     ///< J, since the start
+
+  std::size_t size() const { return time.size(); }
+};
+
+/// Reads these columns of a bed.csv, row by row, since a drive has millions of cells. Throws MissingColumn if
+/// the roller did not drive, else std::runtime_error with file, line and column.
+DriveHistory read_drive_history(const std::filesystem::path &file);
 
 } // namespace drumlin::post

@@ -1,0 +1,152 @@
+#include "commands/commands.h"
+
+#include "commands/roller_options.h"
+#include "commands/text_options.h"
+#include "passes/page.h"
+#include "passes/tables.h"
+#include "support/files.h"
+#include "support/options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char *page_folder = "passes"; // in the folder of the results
+constexpr const char *usual_out = "results/passes";
+
+/// The options as given. Numbers stay text until all are judged.
+struct Arguments {
+  std::vector<std::string> folders;
+  std::string cell = "0.34";
+  std::optional<std::string> spacing, out;
+  RollerArguments roller;
+  DrumArguments drum;
+};
+
+struct Task {
+  std::vector<fs::path> folders;
+  PassesOptions options;
+  fs::path out;
+};
+
+Task judge(const Arguments &arguments) {
+  Task task;
+  for (const std::string &text : arguments.folders) {
+    const fs::path folder = path_option("FOLDER", text);
+    for (const fs::path &other : task.folders)
+      if (fs::exists(folder) && fs::exists(other) && fs::equivalent(folder, other))
+        throw UsageError(refusal("FOLDER", text, "each run once"));
+    task.folders.push_back(folder);
+  }
+  PassesOptions &options = task.options;
+  options.cell = number_option("--cell", arguments.cell, {0.0, 1e3, "m", false, true});
+  if (arguments.spacing) options.spacing = number_option("--spacing", *arguments.spacing, {1e-6, 1e3, "m"});
+  if (const auto drum = judged(arguments.drum, judged(arguments.roller))) {
+    options.meter.drum_radius = drum->radius;
+    options.meter.drum_width = drum->length;
+    options.meter.poisson = drum->poisson;
+  }
+  const std::string usual = task.folders.size() > 1 ? usual_out : task.folders.front().string();
+  task.out = output_folder_option("--out", arguments.out.value_or(usual));
+  std::vector<GivenPath> inputs = files_of(arguments.roller);
+  for (const fs::path &folder : task.folders)
+    for (const GivenPath &file :
+         files_in("FOLDER", folder, {"parameters.csv", "bed.csv", "cycles.csv", "dump"}))
+      inputs.push_back(file);
+  keep_apart(inputs, {{"--out", task.out / page_folder, true}});
+  return task;
+}
+
+PassesResult measured(const fs::path &folder, const PassesOptions &options) {
+  const Drive drive = read_drive(folder);
+  try {
+    return measure_passes(drive, options);
+  } catch (const std::invalid_argument &fault) {
+    throw UsageError(fault.what());
+  }
+}
+
+std::vector<FileText> tables_of(const fs::path &folder, const PassesResult &result) {
+  return {{folder / "passes.csv", passes_csv(result)},
+          {folder / "way.csv", way_csv(result)},
+          {folder / "surface.csv", surface_csv(result)},
+          {folder / "depth.csv", depth_csv(result)}};
+}
+
+void run(const Arguments &arguments) {
+  const Task task = judge(arguments);
+  std::vector<PassesResult> results;
+  for (const fs::path &folder : task.folders) {
+    results.push_back(measured(folder, task.options));
+    if (results.back().layers() != results.front().layers())
+      throw UsageError(
+          refusal("FOLDER", folder.string(),
+                  fmt::format("runs of beds with the {} layers of the first", results.front().layers())));
+  }
+  make_output_folder(task.out);
+  FolderInProgress page(fs::weakly_canonical(fs::absolute(task.out)) / page_folder);
+  write_passes_page(page.path(), results);
+  std::vector<FileText> tables;
+  if (results.size() == 1) {
+    tables = tables_of(task.out, results.front());
+  } else {
+    tables.emplace_back(task.out / "passes.csv", passes_csv(results));
+    for (std::size_t n = 0; n < results.size(); ++n) {
+      const fs::path folder = task.out / fmt::format("run-{}", n + 1);
+      make_output_folder(folder);
+      for (FileText &table : tables_of(folder, results[n]))
+        tables.push_back(std::move(table));
+    }
+  }
+  write_files(tables);
+  page.publish();
+  fmt::print("{}\n", answer_of(results));
+  for (const PassesResult &result : results)
+    for (const std::string &note : result.notes)
+      fmt::print("{}: {}\n", result.folder.string(), note);
+  fmt::print("{}\n{}\n", (task.out / "passes.csv").string(),
+             (task.out / page_folder / "index.html").string());
+}
+
+} // namespace
+
+void add_passes_command(CLI::App &app, Session & /*session*/) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *passes = app.add_subcommand(
+      "passes",
+      "What each pass of a roller that drives over a bed leaves: settlement, how much of it is "
+      "compaction, solid fraction of each layer, heave, energy, meter values along the way, profiles "
+      "over depth. Writes passes.csv, way.csv, surface.csv, depth.csv and a page.");
+  passes
+      ->add_option(
+          "FOLDER", arguments->folders,
+          "folder of a run of inputs/bed/in.drive; several: beds that differ in their seed, of which "
+          "means and intervals are written")
+      ->required();
+  text_option(passes, "--cell", "NUMBER", arguments->cell,
+              "length of a cell along the way [m], which holds four cycles of the excitation or more");
+  text_option(passes, "--spacing", "NUMBER", arguments->spacing,
+              "distance of the vertical lines along which surfaces are measured [m]; a quarter of the radius "
+              "of the smallest ball if not given");
+  add_drum_options(*passes, arguments->drum);
+  add_roller_options(*passes, arguments->roller, "E_vib");
+  text_option(passes, "--out", "DIR", arguments->out,
+              fmt::format("folder of the tables, and of the page in its folder {}; FOLDER if not given, {} "
+                          "for several",
+                          page_folder, usual_out));
+  passes->footer("Examples:\n"
+                 "  drumlin passes results/drive\n"
+                 "  drumlin passes results/drive-1 results/drive-2 results/drive-3 --out results/seeds");
+  passes->callback([arguments] { run(*arguments); });
+}
+
+} // namespace drumlin::post

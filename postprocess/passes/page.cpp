@@ -1,0 +1,393 @@
+#include "passes/page.h"
+
+#include "pages/figure_data.h"
+#include "pages/page.h"
+#include "passes/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+
+using Results = std::vector<PassesResult>;
+using Value = std::function<double(const PassValues &)>;
+
+bool several(const Results &results) { return results.size() > 1; }
+
+/// Passes that all runs have finished, which the answer is about.
+std::size_t passes_of_all(const Results &results) {
+  std::size_t least = results.front().passes.size() - 1;
+  for (const PassesResult &result : results)
+    least = std::min(least, result.passes.size() - 1);
+  return least;
+}
+
+MeanInterval mean_after(const Results &results, std::size_t pass, const Value &value) {
+  const std::vector<double> values = values_after(results, pass, value);
+  return values.empty() ? MeanInterval{NAN, NAN} : mean_interval(values);
+}
+
+Value solid_fraction_of(std::size_t layer) {
+  return [layer](const PassValues &pass) { return pass.soil.solid_fraction[layer]; };
+}
+
+/// The change of the lift's solid fraction and its 95 % interval: over the runs, or of one run along the way.
+MeanInterval gain_of(const Results &results, std::size_t layer) {
+  if (!several(results)) return gain_along_the_way(results.front(), layer);
+  std::vector<double> gains;
+  for (const PassesResult &result : results)
+    gains.push_back(result.passes[passes_of_all(results)].soil.solid_fraction[layer] -
+                    result.passes.front().soil.solid_fraction[layer]);
+  return mean_interval(gains);
+}
+
+std::string count_words(std::size_t count, const char *one, const char *more) {
+  return fmt::format("{} {}", count, count == 1 ? one : more);
+}
+
+/// After how many passes the gain per pass is small.
+std::string level_words(const Results &results, std::size_t layer) {
+  std::vector<double> means;
+  const std::size_t passes = passes_of_all(results);
+  for (std::size_t pass = 0; pass <= passes; ++pass)
+    means.push_back(mean_after(results, pass, solid_fraction_of(layer)).mean);
+  if (passes == 1) return "one pass does not tell when the gain falls below 5 % of the total";
+  const std::optional<int> level = passes_until_level(means);
+  if (level)
+    return fmt::format("after {} the gain per pass is below 5 % of the total",
+                       count_words(static_cast<std::size_t>(*level), "pass", "passes"));
+  const double last = means.back() - means[passes - 1];
+  return fmt::format("the last pass still makes {:.0f} % of the total",
+                     100.0 * last / (means.back() - means.front()));
+}
+
+/// The passes that a figure of curves shows: at most five.
+std::vector<std::size_t> shown_passes(std::size_t passes) {
+  const std::set<std::size_t> some = {0, std::min<std::size_t>(1, passes), std::min<std::size_t>(2, passes),
+                                      (passes + 2) / 2, passes};
+  return {some.begin(), some.end()};
+}
+
+std::string pass_name(std::size_t pass) { return pass == 0 ? "before" : fmt::format("after pass {}", pass); }
+
+CurveStyle line_style(std::size_t n) {
+  constexpr std::array<CurveStyle, 5> styles = {CurveStyle::line_5, CurveStyle::line_2, CurveStyle::line_3,
+                                                CurveStyle::line_4, CurveStyle::line_1};
+  return styles[n % styles.size()];
+}
+
+/// A value over passes with its scatter along the way, or with the 95 % interval of several runs.
+struct PassCurve {
+  std::string title, label;
+  double scale;
+  Value value, scatter;
+};
+
+PageFigure compaction_figure(const Results &results) {
+  const std::string name = "compaction";
+  const bool many = several(results);
+  PageFigure figure = page_figure(
+      "Fig. 1",
+      fmt::format("The compaction curve. Bars: {}.",
+                  many ? "95 % intervals of the mean over the runs"
+                       : "standard deviations of the cells along the way, which are no errors of the mean"),
+      {name, "Compaction curve", {}, 2}, 1.0);
+  std::vector<PassCurve> curves;
+  const std::size_t layers = results.front().layers();
+  for (std::size_t layer = layers; layer-- > 0;)
+    curves.push_back({layer + 1 == layers ? "The lift" : fmt::format("Layer {}", layer + 1),
+                      "solid fraction [-]", 1.0, solid_fraction_of(layer),
+                      [layer](const PassValues &pass) { return pass.solid_scatter[layer]; }});
+  curves.push_back({"Settlement", "settlement of the surface [mm]", 1e3,
+                    [](const PassValues &pass) { return pass.settlement; },
+                    [](const PassValues &pass) { return pass.settlement_scatter; }});
+  curves.push_back({"Meter", "CMV [-]", 1.0, [](const PassValues &pass) { return pass.cmv; },
+                    [](const PassValues &pass) { return pass.cmv_scatter; }});
+  CurveTable table("pass,mean,low,high,compaction");
+  for (const PassCurve &one : curves) {
+    const std::string key = one.title;
+    for (std::size_t pass = 0; pass <= most_passes(results); ++pass) {
+      const MeanInterval mean = mean_after(results, pass, one.value);
+      if (!std::isfinite(mean.mean)) continue;
+      double half = many ? mean.half_width : one.scatter(results.front().passes[pass]);
+      if (!std::isfinite(half)) half = 0.0;
+      const double compaction =
+          mean_after(results, pass, [](const PassValues &values) { return values.compaction; }).mean;
+      table.row(key, {static_cast<double>(pass), one.scale * mean.mean, one.scale * (mean.mean - half),
+                      one.scale * (mean.mean + half), one.scale * compaction});
+    }
+    Panel panel{one.title, "passes", one.label, {}};
+    const bool settlement = key == "Settlement";
+    panel.add(curve(name, key, "$2", "3", CurveStyle::series_1), settlement ? "settlement" : "");
+    panel.add(curve(name, key, "$2", "3:4:5", CurveStyle::spread), "");
+    if (settlement) panel.add(curve(name, key, "$2", "6", CurveStyle::series_2), "of it compaction");
+    panel.x_range = fmt::format("[-0.3:{}.3]", most_passes(results));
+    figure.figure.panels.push_back(std::move(panel));
+  }
+  figure.csv = table.text();
+  return figure;
+}
+
+PageFigure surface_figure(const PassesResult &result) {
+  const std::string name = "surface";
+  const double length = 0.25 * result.cell;
+  PageFigure figure = page_figure(
+      "Fig. 2",
+      fmt::format("Height of the surface along the way, means over {:.3g} m; measured is between {:g} and "
+                  "{:g} m. surface.csv has all lines.",
+                  length, result.measured.from, result.measured.to),
+      {name, "Surface along the way", {}, 1}, 0.9);
+  CurveTable table("s [m],height [m]");
+  Panel panel{"", "place along the way [m]", "height above the floor [m]", {}};
+  panel.tight_x = true;
+  const double end = result.lines.low + static_cast<double>(result.lines.count) * result.lines.spacing;
+  const std::vector<std::size_t> passes = shown_passes(result.passes.size() - 1);
+  for (std::size_t n = 0; n < passes.size(); ++n) {
+    const std::string key = pass_name(passes[n]);
+    for (double from = result.lines.low; from + length <= end + 1e-9; from += length)
+      table.row(key, {from + 0.5 * length,
+                      mean_over(result.surfaces[passes[n]], result.lines, {from, from + length})});
+    panel.curves.push_back(curve(name, key, "$2", "3", line_style(n)));
+  }
+  figure.csv = table.text();
+  figure.figure.panels = {panel};
+  return figure;
+}
+
+PageFigure meter_figure(const PassesResult &result) {
+  const std::string name = "meter";
+  PageFigure figure = page_figure(
+      "Fig. 3", fmt::format("CMV of the cells of {:g} m along the way, drawn at their middles.", result.cell),
+      {name, "CMV along the way", {}, 1});
+  CurveTable table("s [m],CMV [-]");
+  Panel panel{"", "place along the way [m]", "CMV [-]", {}};
+  panel.y_range = "[0:*]";
+  const std::vector<std::size_t> passes = shown_passes(result.passes.size() - 1);
+  for (std::size_t n = 1; n < passes.size(); ++n) {
+    const std::string key = fmt::format("pass {}", passes[n]);
+    for (const WayCell &cell : result.cells)
+      if (cell.pass == static_cast<int>(passes[n]) && cell.cycles > 0)
+        table.row(key, {0.5 * (cell.part.from + cell.part.to), cell.meter.cmv.value_or(NAN)});
+    panel.curves.push_back(curve(name, key, "$2", "3", line_style(n)));
+  }
+  figure.csv = table.text();
+  figure.figure.panels = {panel};
+  return figure;
+}
+
+/// What of the profile a panel shows.
+struct DepthValue {
+  const char *label;
+  double scale;
+  std::optional<double> (*value)(const DepthRow &);
+};
+
+PageFigure depth_figure(const PassesResult &result) {
+  const std::string name = "depth";
+  const bool passing = std::any_of(result.depth.begin(), result.depth.end(),
+                                   [](const PassDepth &one) { return one.passing > 0; });
+  constexpr std::array<DepthValue, 4> values = {
+      {{"solid fraction [-]", 1.0, [](const DepthRow &row) { return std::optional(row.solid_fraction); }},
+       {"coordination [-]", 1.0, [](const DepthRow &row) { return row.coordination; }},
+       {"largest vertical stress [kPa]", 1e-3, [](const DepthRow &row) { return row.largest_vertical; }},
+       {"largest horizontal stress [kPa]", 1e-3,
+        [](const DepthRow &row) { return row.largest_horizontal; }}}};
+  PageFigure figure = page_figure(
+      "Fig. 4",
+      fmt::format("Profiles over the depth below the surface before the first pass: means over the measured "
+                  "way, and the largest stress of a cell of it{}.",
+                  passing ? " in the dumps under the passing drum"
+                          : " after the pass, the roller standing outside of it"),
+      {name, "Profile over depth", {}, 2});
+  CurveTable table("depth [m],solid fraction [-],coordination [-],vertical [kPa],horizontal [kPa]");
+  const std::vector<std::size_t> passes = shown_passes(result.passes.size() - 1);
+  const double surface = result.passes.front().soil.surface;
+  std::array<bool, values.size()> known{};
+  for (const PassDepth &one : result.depth) {
+    const auto pass = static_cast<std::size_t>(one.pass);
+    if (std::find(passes.begin(), passes.end(), pass) == passes.end()) continue;
+    std::array<double, values.size()> cells{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::optional<double> value = values[i].value(one.row);
+      known[i] = known[i] || value;
+      cells[i] = values[i].scale * value.value_or(NAN);
+    }
+    table.row(pass_name(pass), {surface - one.row.height, cells[0], cells[1], cells[2], cells[3]});
+  }
+  figure.csv = table.text();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!known[i]) continue;
+    Panel panel{"", values[i].label, "depth [m]", {}};
+    panel.y_range = "[*:*] reverse";
+    for (std::size_t n = 0; n < passes.size(); ++n) {
+      const std::string key = pass_name(passes[n]);
+      panel.curves.push_back(curve(name, key, fmt::format("${}", i + 3), "2", line_style(n)));
+    }
+    figure.figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+PageTable pass_table(const Results &results) {
+  struct Shown {
+    std::string header;
+    int decimals;
+    double scale;
+    Value value;
+  };
+  constexpr double milli = 1e3, kilo = 1e-3, mega = 1e-6;
+  std::vector<Shown> shown = {
+      {"settlement (mm)", 1, milli, [](const PassValues &pass) { return pass.settlement; }},
+      {"of it compaction (mm)", 1, milli, [](const PassValues &pass) { return pass.compaction; }},
+      {"pushed along (mm)", 1, milli, [](const PassValues &pass) { return pass.pushed(); }},
+      {"heave outside (mm)", 1, milli, [](const PassValues &pass) { return pass.heave; }}};
+  for (std::size_t layer = results.front().layers(); layer-- > 0;) {
+    const auto of_layer = [layer](const char *what) { return fmt::format("{}, layer {}", what, layer + 1); };
+    shown.push_back({of_layer("solid fraction"), 4, 1.0, solid_fraction_of(layer)});
+    shown.push_back({of_layer("degree of compaction (%)"), 1, 100.0,
+                     [layer](const PassValues &pass) { return pass.degree[layer]; }});
+    shown.push_back({of_layer("relative density (%)"), 0, 100.0,
+                     [layer](const PassValues &pass) { return pass.relative_density[layer]; }});
+  }
+  shown.insert(
+      shown.end(),
+      {{"CMV", 1, 1.0, [](const PassValues &pass) { return pass.cmv; }},
+       {"RMV", 1, 1.0, [](const PassValues &pass) { return pass.rmv; }},
+       {"CCV", 1, 1.0, [](const PassValues &pass) { return pass.ccv; }},
+       {"k_B (MN/m)", 1, mega, [](const PassValues &pass) { return pass.k_B; }},
+       {"E_vib (MPa)", 1, mega, [](const PassValues &pass) { return pass.E_vib; }},
+       {"k (MN/m)", 1, mega, [](const PassValues &pass) { return pass.k; }},
+       {"D", 2, 1.0, [](const PassValues &pass) { return pass.D; }},
+       {"contact", 2, 1.0, [](const PassValues &pass) { return pass.contact_share; }},
+       {"peak force (kN)", 0, kilo, [](const PassValues &pass) { return pass.peak_force; }},
+       {"traction (kN)", 2, kilo, [](const PassValues &pass) { return pass.traction; }},
+       {"exciter (kJ per m driven)", 2, kilo, [](const PassValues &pass) { return pass.energy_exciter; }},
+       {"traction (kJ per m driven)", 2, kilo, [](const PassValues &pass) { return pass.energy_traction; }}});
+  const bool many = several(results);
+  PageTable table("passes_table",
+                  many ? "Means over the runs with 95 % intervals" : "What each pass has left", "pass", 1);
+  for (const Shown &one : shown)
+    table.header.push_back(one.header);
+  table.header.emplace_back("mode of most cells");
+  for (std::size_t pass = 0; pass <= most_passes(results); ++pass) {
+    std::vector<std::string> cells = {pass == 0 ? "before" : std::to_string(pass)};
+    for (const Shown &one : shown) {
+      const MeanInterval mean = mean_after(results, pass, one.value);
+      std::string text =
+          std::isfinite(mean.mean) ? fmt::format("{:.{}f}", one.scale * mean.mean, one.decimals) : no_value;
+      if (std::isfinite(mean.mean) && std::isfinite(mean.half_width))
+        text += fmt::format(" ± {:.{}f}", one.scale * mean.half_width, one.decimals);
+      cells.push_back(std::move(text));
+    }
+    const std::string mode = mode_in(results, pass);
+    cells.push_back(mode.empty() ? no_value : mode);
+    table.add(std::move(cells));
+  }
+  table.notes = {
+      "Settlement, compaction and heave count from before the first pass. Compaction: the sum of h0 (1 - "
+      "phi0/phi1) over the layers, of thickness h and solid fraction phi; the rest of the settlement is soil "
+      "that was pushed along or aside, out of the measured part. Heave: the largest rise of the surface "
+      "outside of the measured part, means over a cell.",
+      "The solid fraction of a layer is that between its surfaces, each the highest point of its balls and "
+      "of those below on vertical lines, so that pores at the surface do not count. Meter values are means "
+      "of cells, each of an "
+      "even number of whole cycles; k and D are identified from each pass."};
+  if (results.front().flat)
+    table.notes.emplace_back("Forces, stiffnesses and energies are those of 1 m of the drum's width.");
+  return table;
+}
+
+std::string source_words(const PassesResult &result) {
+  return result.source == HarmonicSource::every_step
+             ? "CMV and RMV are sums over every time step (cycles.csv), CCV is from changes of velocity "
+               "between "
+               "samples (bed.csv)."
+             : "Harmonics are from changes of velocity between samples (bed.csv).";
+}
+
+} // namespace
+
+std::string answer_of(const Results &results) {
+  const std::size_t passes = passes_of_all(results), layer = results.front().layers() - 1;
+  const auto first = [&](const Value &value) { return mean_after(results, 0, value).mean; };
+  const auto last = [&](const Value &value) { return mean_after(results, passes, value).mean; };
+  const MeanInterval gain = gain_of(results, layer);
+  const Value phi = solid_fraction_of(layer);
+  std::string text = fmt::format(
+      "{} {} the lift, {:.2f} m thick at first, from a solid fraction of {:.3f} to {:.3f}",
+      count_words(passes, "pass", "passes"),
+      last(phi) < first(phi) ? (passes == 1 ? "loosens" : "loosen") : (passes == 1 ? "compacts" : "compact"),
+      first([layer](const PassValues &pass) { return pass.soil.thickness[layer]; }), first(phi), last(phi));
+  const double degree = last([layer](const PassValues &pass) { return pass.degree[layer]; });
+  if (std::isfinite(degree))
+    text +=
+        fmt::format(", to a degree of compaction of {:.1f} % (relative density {:.0f} %)", 100.0 * degree,
+                    100.0 * last([layer](const PassValues &pass) { return pass.relative_density[layer]; }));
+  text += "; " + level_words(results, layer);
+  const double settlement = last([](const PassValues &pass) { return pass.settlement; });
+  const double compaction = last([](const PassValues &pass) { return pass.compaction; });
+  text += fmt::format("; of {:.1f} mm of settlement {:.1f} mm are compaction and {:.1f} mm soil pushed along "
+                      "or aside",
+                      1e3 * settlement, 1e3 * compaction, 1e3 * (settlement - compaction));
+  const std::string from = several(results)
+                               ? fmt::format("over {} beds", results.size())
+                               : fmt::format("over {} cells of one bed, which is one sample",
+                                             results.front().cells.size() / results.front().passes.size());
+  if (std::isfinite(gain.half_width))
+    text += fmt::format("; the gain in solid fraction is {:.4f} ± {:.4f} (95 %, {}{})", gain.mean,
+                        gain.half_width, from, gain.significant() ? "" : ": not significant");
+  else
+    text += "; how sure that is one cell does not tell";
+  return text + ".";
+}
+
+void write_passes_page(const std::filesystem::path &folder, const Results &results) {
+  const PassesResult &one = results.front();
+  Page page(folder, "What the passes of a roller leave", Drawing::bed);
+  page.answer(answer_of(results));
+  const bool known = std::isfinite(one.passes.back().degree.back());
+  if (!known)
+    page.answer("The degree of compaction is not known: the run does not note e_loosest and e_densest of its "
+                "layers (beds of a wanted density do).");
+  page.answer(fmt::format("The roller drove at {:.3g} m/s and shook at {:.3g} Hz; a cell of {:g} m holds "
+                          "{:.3g} cycles, of which an even whole number counts. {}",
+                          one.speed, one.frequency, one.cell, one.cell * one.frequency / one.speed,
+                          source_words(one)));
+  for (const PassesResult &result : results)
+    for (const std::string &note : result.notes)
+      page.answer(several(results) ? fmt::format("{}: {}", result.folder.string(), note) : note);
+  page.section("The compaction curve");
+  page.figure(compaction_figure(results));
+  page.table(pass_table(results));
+  if (several(results)) {
+    PageTable runs("runs", "The runs", "folder | passes | answer of this run alone", 1);
+    for (const PassesResult &result : results)
+      runs.add({result.folder.string(), std::to_string(result.passes.size() - 1), answer_of({result})});
+    page.table(std::move(runs));
+  }
+  page.section("Along the way");
+  if (several(results))
+    page.paragraph(fmt::format("Surface, meter and profile are those of {}.", one.folder.string()));
+  page.figure(surface_figure(one));
+  page.figure(meter_figure(one));
+  page.section("Over depth");
+  page.figure(depth_figure(one));
+  const bool standing = std::any_of(one.depth.begin(), one.depth.end(), [](const PassDepth &slice) {
+    return slice.pass > 0 && slice.passing == 0 && slice.row.vertical;
+  });
+  if (standing)
+    page.paragraph("The run has no dumps with the roller on the measured part: the stresses are those that "
+                   "stay in the soil "
+                   "when the roller stands outside of it, not those under the passing drum.");
+  page.write();
+}
+
+} // namespace drumlin::post
