@@ -122,12 +122,19 @@ PageFigure compaction_figure(const Results &results) {
   CurveTable table("pass,mean,low,high,second");
   for (const PassCurve &one : curves) {
     const std::string key = one.title;
+    // The axis of each panel is given: gnuplot would count the bars of all of them.
+    double least = INFINITY, most = -INFINITY;
     for (std::size_t pass = 0; pass <= most_passes(results); ++pass) {
       const MeanInterval mean = mean_after(results, pass, one.value);
       if (!std::isfinite(mean.mean)) continue;
       double half = many ? mean.half_width : one.scatter(results.front().passes[pass]);
       if (!std::isfinite(half)) half = 0.0;
       const double second = one.second ? mean_after(results, pass, one.of_second).mean : NAN;
+      for (const double end : {mean.mean - half, mean.mean + half, second})
+        if (std::isfinite(end)) {
+          least = std::min(least, one.scale * end);
+          most = std::max(most, one.scale * end);
+        }
       table.row(key, {static_cast<double>(pass), one.scale * mean.mean, one.scale * (mean.mean - half),
                       one.scale * (mean.mean + half), one.scale * second});
     }
@@ -139,6 +146,8 @@ PageFigure compaction_figure(const Results &results) {
     panel.add(curve(name, key, "$2", "3:4:5", CurveStyle::spread), "");
     if (one.second) panel.add(curve(name, key, "$2", "6", CurveStyle::series_2), one.second);
     panel.x_range = fmt::format("[-0.3:{}.3]", most_passes(results));
+    const double margin = 0.05 * (most - least);
+    panel.y_range = axis_range(least - margin, most + margin);
     figure.figure.panels.push_back(std::move(panel));
   }
   figure.csv = table.text();

@@ -289,6 +289,51 @@ TEST_F(Passes, DrawsSurfacesAndProfiles) {
   EXPECT_GE(dense, 12);
 }
 
+// Spheres in a lattice so narrow that every line meets one of the top: between equal surfaces the thickness
+// is the distance of their centres.
+TEST_F(Passes, MeasuresInThreeDimensions) {
+  constexpr double narrow = 1.4 * r, high = 0.03, depth = 20 * narrow;
+  Drive drive;
+  drive.flat = false;
+  drive.thickness = depth;
+  drive.layers = 2;
+  drive.measured = {-10 * narrow, 10 * narrow};
+  DumpedBed bed;
+  for (int i = -15; i < 15; ++i)
+    for (int k = 0; k < 20; ++k)
+      for (int j = 0; j < 16; ++j) {
+        post::Ball ball;
+        ball.id = static_cast<long>(bed.balls.size()) + 1;
+        ball.type = j < 8 ? 1 : 4;
+        ball.radius = r;
+        ball.position = {(i + 0.5) * narrow, r + j * high, (k + 0.5) * narrow - 0.5 * depth};
+        bed.balls.push_back(ball);
+      }
+  drive.states = {bed};
+  const VerticalLines lines = lines_over(drive, usual_spacing(drive));
+  const LayerTops tops = layer_tops(drive, bed, lines);
+  const SoilLayers soil = soil_on(drive, bed, lines, tops, drive.measured);
+  const double density = 4.0 / 3.0 * M_PI * r * r * r / (narrow * narrow * high); // overlaps count twice
+  EXPECT_NEAR(soil.thickness[1], 8 * high, 1e-12);
+  EXPECT_NEAR(soil.solid_fraction[1], density, 1e-11);
+  EXPECT_NEAR(soil.inner_solid_fraction(0), density, 0.03 * density); // planes cut the rows anywhere
+  // The mean height of a sphere's top over the square that is its own, by the mean over many points.
+  double arch = 0.0;
+  constexpr int points = 400;
+  for (int a = 0; a < points; ++a)
+    for (int b = 0; b < points; ++b) {
+      const double x = narrow * ((a + 0.5) / points - 0.5), z = narrow * ((b + 0.5) / points - 0.5);
+      arch += std::sqrt(r * r - x * x - z * z) / (points * points);
+    }
+  EXPECT_NEAR(soil.surface, r + 15 * high + arch, 0.01 * r);
+  for (const DepthRow &row : depth_profile(drive, bed, {}, soil.surface, 0.1)) {
+    EXPECT_FALSE(row.coordination || row.vertical); // no dump of contacts
+    if (row.height > 0.1 && row.height < 0.4) {
+      EXPECT_NEAR(row.solid_fraction / density, 1.0, 0.02);
+    }
+  }
+}
+
 TEST_F(Passes, SaysWhenTheGainIsSmall) {
   EXPECT_EQ(passes_until_level({0.0, 0.5, 0.9, 0.96, 1.0}), 3);
   EXPECT_EQ(passes_until_level({0.0, 0.5, 0.9, 1.0}), std::nullopt);        // the last one makes 10 %
