@@ -295,24 +295,30 @@ PageTable pass_table(const Results &results) {
        {"traction (kJ per m driven)", 2, kilo, [](const PassValues &pass) { return pass.energy_traction; }}});
   const bool many = several(results);
   PageTable table("passes_table",
-                  many ? "Means over the runs with 95 % intervals" : "What each pass has left", "pass", 1);
-  for (const Shown &one : shown)
-    table.header.push_back(one.header);
-  table.header.emplace_back("mode of most cells");
-  for (std::size_t pass = 0; pass <= most_passes(results); ++pass) {
-    std::vector<std::string> cells = {pass == 0 ? "before" : std::to_string(pass)};
-    for (const Shown &one : shown) {
+                  many ? "Means over the runs with 95 % intervals" : "What each pass has left", "quantity",
+                  1);
+  for (std::size_t pass = 0; pass <= most_passes(results); ++pass)
+    table.header.push_back(pass == 0 ? "before" : fmt::format("pass {}", pass));
+  for (const Shown &one : shown) {
+    std::vector<std::string> cells = {one.header};
+    bool known = false;
+    for (std::size_t pass = 0; pass <= most_passes(results); ++pass) {
       const MeanInterval mean = mean_after(results, pass, one.value);
-      std::string text =
-          std::isfinite(mean.mean) ? fmt::format("{:.{}f}", one.scale * mean.mean, one.decimals) : no_value;
-      if (std::isfinite(mean.mean) && std::isfinite(mean.half_width))
-        text += fmt::format(" ± {:.{}f}", one.scale * mean.half_width, one.decimals);
-      cells.push_back(std::move(text));
+      known = known || std::isfinite(mean.mean);
+      cells.emplace_back(no_value);
+      if (!std::isfinite(mean.mean)) continue;
+      cells.back() = fmt::format("{:.{}f}", one.scale * mean.mean, one.decimals);
+      if (std::isfinite(mean.half_width))
+        cells.back() += fmt::format(" ± {:.{}f}", one.scale * mean.half_width, one.decimals);
     }
-    const std::string mode = mode_in(results, pass);
-    cells.push_back(mode.empty() ? no_value : mode);
-    table.add(std::move(cells));
+    if (known) table.add(std::move(cells));
   }
+  std::vector<std::string> modes = {"mode of most cells"};
+  for (std::size_t pass = 0; pass <= most_passes(results); ++pass) {
+    const std::string mode = mode_in(results, pass);
+    modes.push_back(mode.empty() ? no_value : mode);
+  }
+  table.add(std::move(modes));
   table.notes = {
       "Settlement, compaction and heave count from before the first pass. Compaction: the sum of h0 (1 - "
       "phi0/phi1) over the layers, of thickness h and solid fraction phi; the rest of the settlement is soil "
@@ -359,8 +365,8 @@ std::string answer_of(const Results &results) {
   text += "; " + level_words(results, layer);
   const double settlement = last([](const PassValues &pass) { return pass.settlement; });
   const double compaction = last([](const PassValues &pass) { return pass.compaction; });
-  text += fmt::format("; of {:.1f} mm of settlement {:.1f} mm are compaction and {:.1f} mm soil pushed along "
-                      "or aside",
+  text += fmt::format("; of {:.1f} mm of settlement compaction of all layers makes {:.1f} mm and soil pushed "
+                      "along or aside {:.1f} mm",
                       1e3 * settlement, 1e3 * compaction, 1e3 * (settlement - compaction));
   const std::string from = several(results)
                                ? fmt::format("over {} beds", results.size())
