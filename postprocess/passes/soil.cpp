@@ -88,8 +88,9 @@ LayerTops layer_tops(const Drive &drive, const DumpedBed &state, const VerticalL
   const auto layers = static_cast<std::size_t>(drive.layers);
   // Of all lines, those across the bed one after the other.
   std::vector<std::vector<double>> highest(layers, std::vector<double>(lines.count * rows, 0.0));
-  for (const Ball &ball : state.balls) {
-    if (!is_soil(ball.type)) continue;
+  for (std::size_t b = 0; b < state.balls.size(); ++b) {
+    if (!state.lies[b]) continue;
+    const Ball &ball = state.balls[b];
     std::vector<double> &heights = highest[static_cast<std::size_t>(layer_of(ball.type)) - 1];
     for_lines_of(ball, lines, [&](std::size_t line, double along) {
       const double section = square(ball.radius) - square(along);
@@ -140,8 +141,9 @@ SoilLayers soil_on(const Drive &drive, const DumpedBed &state, const VerticalLin
   std::vector<double> contents(tops.size(), 0.0);
   soil.inner_content.assign(tops.size(), 0.0);
   const bool flat = drive.flat;
-  for (const Ball &ball : state.balls) {
-    if (!is_soil(ball.type)) continue;
+  for (std::size_t b = 0; b < state.balls.size(); ++b) {
+    if (!state.lies[b]) continue;
+    const Ball &ball = state.balls[b];
     const double content = content_between(ball, 0, part.from, part.to, flat);
     if (content == 0.0) continue;
     contents[static_cast<std::size_t>(layer_of(ball.type)) - 1] += content;

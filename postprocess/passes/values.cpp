@@ -113,6 +113,13 @@ private:
 
   void add_soil(std::size_t n) {
     const DumpedBed &state = drive_.states[n];
+    const auto up = std::count_if(state.balls.begin(), state.balls.end(), [&](const Ball &ball) {
+      return is_soil(ball.type) && !state.lies[static_cast<std::size_t>(&ball - state.balls.data())];
+    });
+    if (up > 0)
+      result_.notes.push_back(fmt::format("Balls of soil that lie on no other soil {}, and do not count: {}.",
+                                          n == 0 ? "before the first pass" : fmt::format("after pass {}", n),
+                                          up));
     const LayerTops tops = layer_tops(drive_, state, result_.lines);
     result_.surfaces.push_back(tops.back());
     PassValues values;
