@@ -176,12 +176,50 @@ private:
 
 } // namespace
 
+std::vector<bool> lying_soil(const std::vector<Ball> &balls) {
+  std::vector<std::size_t> soil; // along the way
+  double largest = 0.0;
+  for (std::size_t b = 0; b < balls.size(); ++b)
+    if (is_soil(balls[b].type)) {
+      soil.push_back(b);
+      largest = std::max(largest, balls[b].radius);
+    }
+  const auto along = [&](std::size_t b) { return balls[b].position[0]; };
+  std::sort(soil.begin(), soil.end(), [&](std::size_t a, std::size_t b) { return along(a) < along(b); });
+  std::vector<bool> lies(balls.size(), false);
+  std::vector<std::size_t> found; // places in `soil` whose neighbours are to be looked at
+  const auto take = [&](std::size_t place) {
+    lies[soil[place]] = true;
+    found.push_back(place);
+  };
+  for (std::size_t place = 0; place < soil.size(); ++place)
+    if (const Ball &ball = balls[soil[place]]; ball.position[1] <= 2.0 * ball.radius) take(place);
+  const double reach = 3.0 * largest;
+  while (!found.empty()) {
+    const Ball &ball = balls[soil[found.back()]];
+    const double x = ball.position[0];
+    found.pop_back();
+    const auto first = std::lower_bound(soil.begin(), soil.end(), x - reach,
+                                        [&](std::size_t b, double low) { return along(b) < low; });
+    for (auto place = static_cast<std::size_t>(first - soil.begin());
+         place < soil.size() && along(soil[place]) <= x + reach; ++place) {
+      const Ball &other = balls[soil[place]];
+      if (lies[soil[place]]) continue;
+      const double distance = std::hypot(other.position[0] - x, other.position[1] - ball.position[1],
+                                         other.position[2] - ball.position[2]);
+      if (distance <= ball.radius + other.radius + std::min(ball.radius, other.radius)) take(place);
+    }
+  }
+  return lies;
+}
+
 DumpedBed read_dumped_bed(const fs::path &folder, long step) {
   const Steps steps = dumped_steps(folder / "dump");
   const StepDump &dump = steps.at(step);
   DumpedBed state;
   state.step = step;
   state.balls = read_ball_dump(dump.balls);
+  state.lies = lying_soil(state.balls);
   if (!dump.contacts.empty()) state.contacts = read_contact_dump(dump.contacts, state.balls);
   return state;
 }

@@ -26,8 +26,13 @@ struct WayPart {
 struct DumpedBed {
   long step = 0;
   std::vector<Ball> balls;
+  std::vector<bool> lies;              ///< of each ball, as lying_soil() has it
   std::optional<BedContacts> contacts; ///< not given if the step has no dump of them
 };
+
+/// Which balls are soil that lies on the floor at y = 0, or on soil that does: no farther than its radius
+/// from it. Balls in the air and those on the roller alone are no part of the bed.
+std::vector<bool> lying_soil(const std::vector<Ball> &balls);
 
 /// A pass that the roller has finished.
 struct DrivenPass {

@@ -64,9 +64,8 @@ std::string level_words(const Results &results, std::size_t layer) {
   if (level)
     return fmt::format("after {} the gain per pass is below 5 % of the total",
                        count_words(static_cast<std::size_t>(*level), "pass", "passes"));
-  const double last = means.back() - means[passes - 1];
-  return fmt::format("the last pass still makes {:.0f} % of the total",
-                     100.0 * last / (means.back() - means.front()));
+  return fmt::format("the gain per pass is not yet below 5 % of the total (the last one: {:.0f} %)",
+                     100.0 * (means.back() - means[passes - 1]) / (means.back() - means.front()));
 }
 
 /// The passes that a figure of curves shows: at most five.
@@ -89,6 +88,8 @@ struct PassCurve {
   std::string title, label;
   double scale;
   Value value, scatter;
+  const char *second; ///< name of `of_second`, without bars; nullptr: there is none
+  Value of_second;
 };
 
 PageFigure compaction_figure(const Results &results) {
@@ -105,31 +106,48 @@ PageFigure compaction_figure(const Results &results) {
   for (std::size_t layer = layers; layer-- > 0;)
     curves.push_back({layer + 1 == layers ? "The lift" : fmt::format("Layer {}", layer + 1),
                       "solid fraction [-]", 1.0, solid_fraction_of(layer),
-                      [layer](const PassValues &pass) { return pass.solid_scatter[layer]; }});
+                      [layer](const PassValues &pass) { return pass.solid_scatter[layer]; }, "inside",
+                      [layer](const PassValues &pass) { return pass.soil.inner_solid_fraction(layer); }});
   curves.push_back({"Settlement", "settlement of the surface [mm]", 1e3,
                     [](const PassValues &pass) { return pass.settlement; },
-                    [](const PassValues &pass) { return pass.settlement_scatter; }});
-  curves.push_back({"Meter", "CMV [-]", 1.0, [](const PassValues &pass) { return pass.cmv; },
-                    [](const PassValues &pass) { return pass.cmv_scatter; }});
-  CurveTable table("pass,mean,low,high,compaction");
+                    [](const PassValues &pass) { return pass.settlement_scatter; }, "of it compaction",
+                    [](const PassValues &pass) { return pass.compaction; }});
+  curves.push_back({"Meter",
+                    "CMV [-]",
+                    1.0,
+                    [](const PassValues &pass) { return pass.cmv; },
+                    [](const PassValues &pass) { return pass.cmv_scatter; },
+                    nullptr,
+                    {}});
+  CurveTable table("pass,mean,low,high,second");
   for (const PassCurve &one : curves) {
     const std::string key = one.title;
+    // The axis of each panel is given: gnuplot would count the bars of all of them.
+    double least = INFINITY, most = -INFINITY;
     for (std::size_t pass = 0; pass <= most_passes(results); ++pass) {
       const MeanInterval mean = mean_after(results, pass, one.value);
       if (!std::isfinite(mean.mean)) continue;
       double half = many ? mean.half_width : one.scatter(results.front().passes[pass]);
       if (!std::isfinite(half)) half = 0.0;
-      const double compaction =
-          mean_after(results, pass, [](const PassValues &values) { return values.compaction; }).mean;
+      const double second = one.second ? mean_after(results, pass, one.of_second).mean : NAN;
+      for (const double end : {mean.mean - half, mean.mean + half, second})
+        if (std::isfinite(end)) {
+          least = std::min(least, one.scale * end);
+          most = std::max(most, one.scale * end);
+        }
       table.row(key, {static_cast<double>(pass), one.scale * mean.mean, one.scale * (mean.mean - half),
-                      one.scale * (mean.mean + half), one.scale * compaction});
+                      one.scale * (mean.mean + half), one.scale * second});
     }
     Panel panel{one.title, "passes", one.label, {}};
-    const bool settlement = key == "Settlement";
-    panel.add(curve(name, key, "$2", "3", CurveStyle::series_1), settlement ? "settlement" : "");
+    panel.add(curve(name, key, "$2", "3", CurveStyle::series_1), !one.second ? ""
+                                                                 : key == "Settlement"
+                                                                     ? "settlement"
+                                                                     : "between its surfaces");
     panel.add(curve(name, key, "$2", "3:4:5", CurveStyle::spread), "");
-    if (settlement) panel.add(curve(name, key, "$2", "6", CurveStyle::series_2), "of it compaction");
+    if (one.second) panel.add(curve(name, key, "$2", "6", CurveStyle::series_2), one.second);
     panel.x_range = fmt::format("[-0.3:{}.3]", most_passes(results));
+    const double margin = 0.05 * (most - least);
+    panel.y_range = axis_range(least - margin, most + margin);
     figure.figure.panels.push_back(std::move(panel));
   }
   figure.csv = table.text();
@@ -252,6 +270,8 @@ PageTable pass_table(const Results &results) {
   for (std::size_t layer = results.front().layers(); layer-- > 0;) {
     const auto of_layer = [layer](const char *what) { return fmt::format("{}, layer {}", what, layer + 1); };
     shown.push_back({of_layer("solid fraction"), 4, 1.0, solid_fraction_of(layer)});
+    shown.push_back({of_layer("inside"), 4, 1.0,
+                     [layer](const PassValues &pass) { return pass.soil.inner_solid_fraction(layer); }});
     shown.push_back({of_layer("degree of compaction (%)"), 1, 100.0,
                      [layer](const PassValues &pass) { return pass.degree[layer]; }});
     shown.push_back({of_layer("relative density (%)"), 0, 100.0,
@@ -265,7 +285,9 @@ PageTable pass_table(const Results &results) {
        {"k_B (MN/m)", 1, mega, [](const PassValues &pass) { return pass.k_B; }},
        {"E_vib (MPa)", 1, mega, [](const PassValues &pass) { return pass.E_vib; }},
        {"k (MN/m)", 1, mega, [](const PassValues &pass) { return pass.k; }},
+       {"half width of the interval of k", 1, mega, [](const PassValues &pass) { return pass.k_half_width; }},
        {"D", 2, 1.0, [](const PassValues &pass) { return pass.D; }},
+       {"half width of the interval of D", 2, 1.0, [](const PassValues &pass) { return pass.D_half_width; }},
        {"contact", 2, 1.0, [](const PassValues &pass) { return pass.contact_share; }},
        {"peak force (kN)", 0, kilo, [](const PassValues &pass) { return pass.peak_force; }},
        {"traction (kN)", 2, kilo, [](const PassValues &pass) { return pass.traction; }},
@@ -273,31 +295,39 @@ PageTable pass_table(const Results &results) {
        {"traction (kJ per m driven)", 2, kilo, [](const PassValues &pass) { return pass.energy_traction; }}});
   const bool many = several(results);
   PageTable table("passes_table",
-                  many ? "Means over the runs with 95 % intervals" : "What each pass has left", "pass", 1);
-  for (const Shown &one : shown)
-    table.header.push_back(one.header);
-  table.header.emplace_back("mode of most cells");
-  for (std::size_t pass = 0; pass <= most_passes(results); ++pass) {
-    std::vector<std::string> cells = {pass == 0 ? "before" : std::to_string(pass)};
-    for (const Shown &one : shown) {
+                  many ? "Means over the runs with 95 % intervals" : "What each pass has left", "quantity",
+                  1);
+  for (std::size_t pass = 0; pass <= most_passes(results); ++pass)
+    table.header.push_back(pass == 0 ? "before" : fmt::format("pass {}", pass));
+  for (const Shown &one : shown) {
+    std::vector<std::string> cells = {one.header};
+    bool known = false;
+    for (std::size_t pass = 0; pass <= most_passes(results); ++pass) {
       const MeanInterval mean = mean_after(results, pass, one.value);
-      std::string text =
-          std::isfinite(mean.mean) ? fmt::format("{:.{}f}", one.scale * mean.mean, one.decimals) : no_value;
-      if (std::isfinite(mean.mean) && std::isfinite(mean.half_width))
-        text += fmt::format(" ± {:.{}f}", one.scale * mean.half_width, one.decimals);
-      cells.push_back(std::move(text));
+      known = known || std::isfinite(mean.mean);
+      cells.emplace_back(no_value);
+      if (!std::isfinite(mean.mean)) continue;
+      cells.back() = fmt::format("{:.{}f}", one.scale * mean.mean, one.decimals);
+      if (std::isfinite(mean.half_width))
+        cells.back() += fmt::format(" ± {:.{}f}", one.scale * mean.half_width, one.decimals);
     }
-    const std::string mode = mode_in(results, pass);
-    cells.push_back(mode.empty() ? no_value : mode);
-    table.add(std::move(cells));
+    if (known) table.add(std::move(cells));
   }
+  std::vector<std::string> modes = {"mode of most cells"};
+  for (std::size_t pass = 0; pass <= most_passes(results); ++pass) {
+    const std::string mode = mode_in(results, pass);
+    modes.push_back(mode.empty() ? no_value : mode);
+  }
+  table.add(std::move(modes));
   table.notes = {
       "Settlement, compaction and heave count from before the first pass. Compaction: the sum of h0 (1 - "
       "phi0/phi1) over the layers, of thickness h and solid fraction phi; the rest of the settlement is soil "
       "that was pushed along or aside, out of the measured part. Heave: the largest rise of the surface "
       "outside of the measured part, means over a cell.",
       "The solid fraction of a layer is that between its surfaces, each the highest point of its balls and "
-      "of those below on vertical lines, so that pores at the surface do not count. Meter values are means "
+      "of those below on vertical lines, so that pores above its topmost balls do not count; the inside of a "
+      "layer, of which are relative density and degree of compaction, begins two mean diameters, at most a "
+      "quarter of the thickness, away from them, as in.density measures. Meter values are means "
       "of cells, each of an "
       "even number of whole cycles; k and D are identified from each pass."};
   if (results.front().flat)
@@ -322,20 +352,21 @@ std::string answer_of(const Results &results) {
   const MeanInterval gain = gain_of(results, layer);
   const Value phi = solid_fraction_of(layer);
   std::string text = fmt::format(
-      "{} {} the lift, {:.2f} m thick at first, from a solid fraction of {:.3f} to {:.3f}",
+      "{} {} the lift, {:.2f} m thick at first, from a solid fraction of {:.3f} to {:.3f} between its "
+      "surfaces",
       count_words(passes, "pass", "passes"),
       last(phi) < first(phi) ? (passes == 1 ? "loosens" : "loosen") : (passes == 1 ? "compacts" : "compact"),
       first([layer](const PassValues &pass) { return pass.soil.thickness[layer]; }), first(phi), last(phi));
   const double degree = last([layer](const PassValues &pass) { return pass.degree[layer]; });
   if (std::isfinite(degree))
-    text +=
-        fmt::format(", to a degree of compaction of {:.1f} % (relative density {:.0f} %)", 100.0 * degree,
-                    100.0 * last([layer](const PassValues &pass) { return pass.relative_density[layer]; }));
+    text += fmt::format(
+        " and inside to a degree of compaction of {:.1f} % (relative density {:.0f} %)", 100.0 * degree,
+        100.0 * last([layer](const PassValues &pass) { return pass.relative_density[layer]; }));
   text += "; " + level_words(results, layer);
   const double settlement = last([](const PassValues &pass) { return pass.settlement; });
   const double compaction = last([](const PassValues &pass) { return pass.compaction; });
-  text += fmt::format("; of {:.1f} mm of settlement {:.1f} mm are compaction and {:.1f} mm soil pushed along "
-                      "or aside",
+  text += fmt::format("; of {:.1f} mm of settlement compaction of all layers makes {:.1f} mm and soil pushed "
+                      "along or aside {:.1f} mm",
                       1e3 * settlement, 1e3 * compaction, 1e3 * (settlement - compaction));
   const std::string from = several(results)
                                ? fmt::format("over {} beds", results.size())

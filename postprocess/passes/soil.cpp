@@ -26,11 +26,21 @@ double content_left_of(double x, bool flat) {
   return flat ? pi - std::acos(at) + at * std::sqrt(1.0 - at * at) : pi / 3.0 * square(1.0 + at) * (2.0 - at);
 }
 
-/// Area or volume of the part of a ball that lies in a part of the way.
-double content_in(const Ball &ball, const WayPart &part, bool flat) {
-  const double r = ball.radius, x = ball.position[0];
+/// Area of a disc, or volume of a sphere, between two planes along an axis.
+double content_between(const Ball &ball, std::size_t axis, double from, double to, bool flat) {
+  const double r = ball.radius, x = ball.position[axis];
   return (flat ? r * r : r * r * r) *
-         (content_left_of((part.to - x) / r, flat) - content_left_of((part.from - x) / r, flat));
+         (content_left_of((to - x) / r, flat) - content_left_of((from - x) / r, flat));
+}
+
+double mean_diameter(const Drive &drive) {
+  double diameters = 0.0, count = 0.0;
+  for (const Ball &ball : drive.states.front().balls)
+    if (is_soil(ball.type)) {
+      diameters += 2.0 * ball.radius;
+      count += 1.0;
+    }
+  return diameters / count;
 }
 
 /// Calls visit(line) for the lines that meet a ball, with their distance from its centre along the way.
@@ -78,8 +88,9 @@ LayerTops layer_tops(const Drive &drive, const DumpedBed &state, const VerticalL
   const auto layers = static_cast<std::size_t>(drive.layers);
   // Of all lines, those across the bed one after the other.
   std::vector<std::vector<double>> highest(layers, std::vector<double>(lines.count * rows, 0.0));
-  for (const Ball &ball : state.balls) {
-    if (!is_soil(ball.type)) continue;
+  for (std::size_t b = 0; b < state.balls.size(); ++b) {
+    if (!state.lies[b]) continue;
+    const Ball &ball = state.balls[b];
     std::vector<double> &heights = highest[static_cast<std::size_t>(layer_of(ball.type)) - 1];
     for_lines_of(ball, lines, [&](std::size_t line, double along) {
       const double section = square(ball.radius) - square(along);
@@ -114,20 +125,46 @@ double mean_over(const std::vector<double> &heights, const VerticalLines &lines,
 SoilLayers soil_on(const Drive &drive, const DumpedBed &state, const VerticalLines &lines,
                    const LayerTops &tops, const WayPart &part) {
   SoilLayers soil;
-  std::vector<double> contents(tops.size(), 0.0);
-  for (const Ball &ball : state.balls)
-    if (is_soil(ball.type))
-      contents[static_cast<std::size_t>(layer_of(ball.type)) - 1] += content_in(ball, part, drive.flat);
+  const double base = part.length() * (drive.flat ? 1.0 : drive.thickness),
+               diameters = 2.0 * mean_diameter(drive);
+  std::vector<WayPart> inside; // heights
   double below = 0.0;
-  for (std::size_t layer = 0; layer < tops.size(); ++layer) {
-    const double top = mean_over(tops[layer], lines, part);
-    soil.thickness.push_back(top - below);
-    soil.solid_fraction.push_back(
-        contents[layer] / (part.length() * soil.thickness.back() * (drive.flat ? 1.0 : drive.thickness)));
+  for (const std::vector<double> &heights : tops) {
+    const double top = mean_over(heights, lines, part), thick = top - below;
+    const double beside = std::min(diameters, 0.25 * thick);
+    inside.push_back({below + beside, top - beside});
+    soil.thickness.push_back(thick);
+    soil.inner_space.push_back(base * inside.back().length());
     below = top;
   }
   soil.surface = below;
+  std::vector<double> contents(tops.size(), 0.0);
+  soil.inner_content.assign(tops.size(), 0.0);
+  const bool flat = drive.flat;
+  for (std::size_t b = 0; b < state.balls.size(); ++b) {
+    if (!state.lies[b]) continue;
+    const Ball &ball = state.balls[b];
+    const double content = content_between(ball, 0, part.from, part.to, flat);
+    if (content == 0.0) continue;
+    contents[static_cast<std::size_t>(layer_of(ball.type)) - 1] += content;
+    const double r = ball.radius, share = content / (flat ? pi * r * r : 4.0 / 3.0 * pi * r * r * r);
+    for (std::size_t layer = 0; layer < inside.size(); ++layer)
+      soil.inner_content[layer] +=
+          share * content_between(ball, 1, inside[layer].from, inside[layer].to, flat);
+  }
+  for (std::size_t layer = 0; layer < tops.size(); ++layer)
+    soil.solid_fraction.push_back(contents[layer] / (base * soil.thickness[layer]));
   return soil;
+}
+
+void take_inside(SoilLayers &whole, const std::vector<SoilLayers> &cells) {
+  for (std::size_t layer = 0; layer < whole.thickness.size(); ++layer) {
+    whole.inner_content[layer] = whole.inner_space[layer] = 0.0;
+    for (const SoilLayers &cell : cells) {
+      whole.inner_content[layer] += cell.inner_content[layer];
+      whole.inner_space[layer] += cell.inner_space[layer];
+    }
+  }
 }
 
 double compaction_of(const SoilLayers &before, const SoilLayers &after) {
@@ -155,14 +192,8 @@ double heave_of(const std::vector<double> &before, const std::vector<double> &af
 
 std::vector<DepthRow> depth_profile(const Drive &drive, const DumpedBed &state,
                                     const std::vector<DumpedBed> &loaded, double surface, double cell) {
-  double diameters = 0.0, count = 0.0;
-  for (const Ball &ball : drive.states.front().balls)
-    if (is_soil(ball.type)) {
-      diameters += 2.0 * ball.radius;
-      count += 1.0;
-    }
   constexpr double high = 1.5; // mean diameters
-  const double slice = high * diameters / count;
+  const double slice = high * mean_diameter(drive);
   const double slices = std::floor(surface / slice + 1e-9);
   if (!(slices >= 1.0)) return {};
   const double along = std::max(1.0, std::round(drive.measured.length() / cell));

@@ -40,11 +40,21 @@ struct SoilLayers {
   double surface = 0.0;               ///< m, mean height
   std::vector<double> thickness;      ///< m, mean
   std::vector<double> solid_fraction; ///< volume (area) of its balls over that between its surfaces
+  /// Volume (area) of balls in the inside of each layer, and of this: between the planes that are two mean
+  /// diameters, at most a quarter of the thickness, away from the mean heights of its surfaces. As
+  /// in.density measures the loosest and the densest packing, without the pores at surfaces.
+  std::vector<double> inner_content, inner_space;
+
+  double inner_solid_fraction(std::size_t layer) const { return inner_content[layer] / inner_space[layer]; }
 };
 
-/// Balls that reach over the ends of the part count with what lies inside, exactly.
+/// Balls that reach over the ends of the part count with what lies inside, exactly; in the inside of a layer
+/// a ball that is cut there counts with its share.
 SoilLayers soil_on(const Drive &drive, const DumpedBed &state, const VerticalLines &lines,
                    const LayerTops &tops, const WayPart &part);
+
+/// Gives a part of the way the inside of layers of its cells, each between planes of its own.
+void take_inside(SoilLayers &whole, const std::vector<SoilLayers> &cells);
 
 /// How much of a settlement is compaction, m: sum of h0 (1 - phi0/phi1) over the layers. What is left of the
 /// settlement is soil that has left the part of the way, over the solid fraction of its layer.

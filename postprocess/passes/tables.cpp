@@ -46,6 +46,9 @@ std::vector<PassColumn> pass_columns(std::size_t layers) {
   add_layer(
       "solid_fraction_scatter", "-",
       [](const PassValues &pass) -> const auto & { return pass.solid_scatter; });
+  for (std::size_t layer = 0; layer < layers; ++layer)
+    columns.push_back({fmt::format("inner_solid_fraction_{} [-]", layer + 1),
+                       [layer](const PassValues &pass) { return pass.soil.inner_solid_fraction(layer); }});
   add_layer(
       "relative_density", "-", [](const PassValues &pass) -> const auto & { return pass.relative_density; });
   add_layer(
@@ -60,7 +63,9 @@ std::vector<PassColumn> pass_columns(std::size_t layers) {
   add("k_B [N/m]", &PassValues::k_B);
   add("E_vib [Pa]", &PassValues::E_vib);
   add("k [N/m]", &PassValues::k);
+  add("k_half_width [N/m]", &PassValues::k_half_width);
   add("D [-]", &PassValues::D);
+  add("D_half_width [-]", &PassValues::D_half_width);
   add("contact_share [-]", &PassValues::contact_share);
   add("peak_force [N]", &PassValues::peak_force);
   return columns;
@@ -114,7 +119,7 @@ std::string passes_csv(const std::vector<PassesResult> &results) {
   for (const PassColumn &column : columns) {
     header.push_back(column.header);
     const std::size_t unit = column.header.find(" [");
-    header.push_back(column.header.substr(0, unit) + "_half_width" + column.header.substr(unit));
+    header.push_back(column.header.substr(0, unit) + "_interval" + column.header.substr(unit));
   }
   header.emplace_back("mode");
   std::string text = csv_line(header);

@@ -113,13 +113,21 @@ private:
 
   void add_soil(std::size_t n) {
     const DumpedBed &state = drive_.states[n];
+    const auto up = std::count_if(state.balls.begin(), state.balls.end(), [&](const Ball &ball) {
+      return is_soil(ball.type) && !state.lies[static_cast<std::size_t>(&ball - state.balls.data())];
+    });
+    if (up > 0)
+      result_.notes.push_back(fmt::format("Balls of soil that lie on no other soil {}, and do not count: {}.",
+                                          n == 0 ? "before the first pass" : fmt::format("after pass {}", n),
+                                          up));
     const LayerTops tops = layer_tops(drive_, state, result_.lines);
     result_.surfaces.push_back(tops.back());
     PassValues values;
     values.pass = static_cast<int>(n);
     values.energy_exciter = values.energy_traction = values.traction = none;
     values.cmv = values.cmv_scatter = values.rmv = values.ccv = values.k_B = values.E_vib = none;
-    values.contact_share = values.peak_force = values.k = values.D = none;
+    values.contact_share = values.peak_force = none;
+    values.k = values.k_half_width = values.D = values.D_half_width = none;
     values.soil = soil_on(drive_, state, result_.lines, tops, drive_.measured);
     const SoilLayers &first = n == 0 ? values.soil : result_.passes.front().soil;
     values.settlement = first.surface - values.soil.surface;
@@ -127,6 +135,7 @@ private:
     values.heave =
         heave_of(result_.surfaces.front(), tops.back(), result_.lines, drive_.measured, options_.cell);
     std::vector<double> settlements;
+    std::vector<SoilLayers> cells;
     std::vector<std::vector<double>> solid(values.soil.thickness.size());
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       WayCell cell;
@@ -135,16 +144,18 @@ private:
       cell.after = soil_on(drive_, state, result_.lines, tops, parts_[i]);
       cell.before = n == 0 ? cell.after : result_.cells[(n - 1) * parts_.size() + i].after;
       const SoilLayers &start = n == 0 ? cell.after : result_.cells[i].after;
+      cells.push_back(cell.after);
       settlements.push_back(start.surface - cell.after.surface);
       for (std::size_t layer = 0; layer < solid.size(); ++layer)
         solid[layer].push_back(cell.after.solid_fraction[layer]);
       result_.cells.push_back(std::move(cell));
     }
+    take_inside(values.soil, cells);
     values.settlement_scatter = scatter_of(settlements);
     for (std::size_t layer = 0; layer < solid.size(); ++layer) {
       values.solid_scatter.push_back(scatter_of(solid[layer]));
       const bool known = packings_.size() == solid.size();
-      const double phi = values.soil.solid_fraction[layer];
+      const double phi = values.soil.inner_solid_fraction(layer);
       values.relative_density.push_back(known ? packings_[layer].relative_density(phi) : none);
       values.degree.push_back(known ? packings_[layer].compaction(phi) : none);
     }
@@ -250,7 +261,9 @@ private:
     try {
       const IdentifiedRecord found = identify_record(part_of(drive_.record, pass), {});
       values.k = found.whole.law.k.mean;
+      values.k_half_width = found.whole.law.k.half_width;
       values.D = found.whole.law.D.mean;
+      values.D_half_width = found.whole.law.D.half_width;
     } catch (const std::runtime_error &fault) {
       result_.notes.push_back(
           fmt::format("k and D of pass {} are not identified: {}.", values.pass, fault.what()));

@@ -41,13 +41,13 @@ struct PassValues {
   double compaction = 0.0;         ///< the part of the settlement that is compaction of the layers, m
   double heave = 0.0; ///< largest rise outside of the measured part since before the first pass, m
   std::vector<double> solid_scatter;      ///< of each layer, standard deviation of the cells
-  std::vector<double> relative_density;   ///< of each layer
-  std::vector<double> degree;             ///< of compaction of each layer, density over the densest one
+  std::vector<double> relative_density;   ///< of the inside of each layer
+  std::vector<double> degree;             ///< of compaction of that, density over the densest one
   double energy_exciter, energy_traction; ///< J per metre driven
   double traction;                        ///< N, mean, along the direction of the pass
   double cmv, cmv_scatter, rmv, ccv, k_B, E_vib, contact_share, peak_force; ///< means of the cells
-  double k, D;                                                              ///< identified, N/m, -
-  std::string mode; ///< of most cells; empty: not known
+  double k, k_half_width, D, D_half_width; ///< identified, with 95 % intervals, N/m, -
+  std::string mode;                        ///< of most cells; empty: not known
 
   /// What of the settlement is not compaction: soil that was pushed along or aside, m.
   double pushed() const { return settlement - compaction; }
