@@ -302,9 +302,10 @@ std::vector<std::string> pages() {
   for (const fs::directory_entry &entry : fs::directory_iterator(root / "plugin/doc"))
     if (entry.path().extension() == ".md") names.push_back("plugin/doc/" + entry.path().filename().string());
   std::sort(names.begin(), names.end());
-  for (const char *name : {"README.md", "inputs/benchmarks/README.md", "inputs/chain/README.md",
-                           "inputs/soil/README.md", "postprocess/README.md", "postprocess/identify.md",
-                           "postprocess/map.md", "postprocess/meter.md", "postprocess/record.md"})
+  for (const char *name :
+       {"README.md", "inputs/benchmarks/README.md", "inputs/chain/README.md", "inputs/soil/README.md",
+        "inputs/study/observations/findings.md", "postprocess/README.md", "postprocess/identify.md",
+        "postprocess/map.md", "postprocess/meter.md", "postprocess/record.md"})
     names.emplace_back(name);
   return names;
 }
