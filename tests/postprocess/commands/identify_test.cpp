@@ -261,6 +261,7 @@ TEST_F(IdentifyCommand, NeedsNoSensorOnTheFrame) {
   EXPECT_NEAR(by_hand.first, p.k, 1e-3 * p.k);
   const auto unknown = k_of({}, "known to 30 %");
   EXPECT_GE(unknown.second, exact.second);
+  EXPECT_EQ(k_of({"--bond-tolerance", "30"}, "known to 30 %"), unknown);
   words.insert(words.end(), {"--bond-tolerance", "101"});
   expect_refused(words, "--bond-tolerance is '101'; allowed: ");
 }
