@@ -1,0 +1,185 @@
+// in.drive on a small bed: the roller comes to where its way says, its work balances, and the run is the same
+// on any number of ranks, in pieces and in both engines.
+#include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
+
+#include "bed/dump_readers.h"
+#include "support/csv.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path bed_folder() { return fs::path(DRUMLIN_SOURCE_DIR) / "inputs/bed"; }
+
+/// 250 balls in a box of 1 m, a roller of 150 kg and 0.1 m at its left, settled once for all tests.
+class BedDriven : public ::testing::Test {
+protected:
+  const WaitForRanks at_once{0};
+
+  static void SetUpTestSuite() {
+    well(run_program({DRUMLIN_TOOLS, "bed", "--balls", "250", "--width", "1", "--out", "balls.data"}, {},
+                     scratch().path()));
+    well(run_deck(bed_folder() / "in.settle",
+                  {{"case", "loose"}, {"balls", "balls.data"}, {"bed", "soil.restart"}}, scratch().path()));
+    well(run_deck(bed_folder() / "in.place",
+                  {{"bed", "soil.restart"},
+                   {"start", "roller.restart"},
+                   {"place", "-0.2"},
+                   {"m2", "100"},
+                   {"m3", "50"},
+                   {"r2", "0.1"},
+                   {"r3", "0.05"},
+                   {"k23", "5e4"},
+                   {"c23", "500"}},
+                  scratch().path()));
+  }
+  static void TearDownTestSuite() { scratch(nullptr); }
+
+  /// Two passes of 0.4 m at 2 m/s, 50 Hz in steps as long as those of the decks.
+  static Outcome drive(const Scratch &folder, const Variables &more, int ranks = 1,
+                       const char *deck = "in.drive") {
+    Variables variables = with(more, {{"speed", "2"},
+                                      {"ramp", "0.05"},
+                                      {"omega", "314.1592653589793"},
+                                      {"Fw", "2940"},
+                                      {"steps_per_cycle", "1000"},
+                                      {"samples_per_cycle", "100"},
+                                      {"out", folder.path().string()},
+                                      {"start", (scratch().path() / "roller.restart").string()}});
+    return run_deck(bed_folder() / deck, variables, folder.path(), ranks);
+  }
+
+  static Scratch &scratch() {
+    if (!*held()) *held() = std::make_unique<Scratch>();
+    return **held();
+  }
+  static void scratch(std::nullptr_t) { held()->reset(); }
+
+private:
+  static std::unique_ptr<Scratch> *held() {
+    static std::unique_ptr<Scratch> one;
+    return &one;
+  }
+};
+
+double place_of_drum(const fs::path &dump) {
+  for (const post::Ball &ball : post::read_ball_dump(dump))
+    if (ball.type == post::drum_type) return ball.position[0];
+  return NAN;
+}
+
+// The dumps behind the passes have the drum at the ends of its way; the works of exciter, traction and torque
+// are what the bed stores and loses.
+TEST_F(BedDriven, ComesToTheEndsOfItsWayAndItsWorkBalances) {
+  for (const char *rotation : {"driven", "towed", "none"}) {
+    const Scratch folder;
+    well(drive(folder, {{"drum_rotation", rotation}}));
+    const std::map<long, post::StepDump> dumps = post::dumped_steps(folder / "dump");
+    ASSERT_EQ(dumps.size(), 3U);
+    std::vector<double> places;
+    for (const auto &[step, files] : dumps)
+      places.push_back(place_of_drum(files.balls));
+    EXPECT_NEAR(places[0], -0.2, 1e-12);
+    EXPECT_NEAR(places[1], 0.2, 1e-12);
+    EXPECT_NEAR(places[2], -0.2, 1e-12);
+    const post::Table rows = post::read_table(folder / "bed.csv");
+    const auto change = [&rows](const char *column) {
+      const std::vector<double> values = rows.numbers(column);
+      return values.back() - values.front();
+    };
+    double given = 0.0;
+    for (const char *work : {"work_excitation", "work_traction", "work_torque"})
+      given += change(work);
+    double kept = 0.0;
+    for (const char *energy : {"kinetic", "potential", "elastic", "dissipated"})
+      kept += change(energy);
+    EXPECT_NEAR(kept, given, 1e-3 * std::fabs(change("work_excitation"))) << rotation;
+    EXPECT_GT(std::fabs(change("work_traction")), 0.01 * change("work_excitation")) << rotation;
+    const std::vector<double> s = rows.numbers("s"), pass = rows.numbers("pass");
+    EXPECT_EQ(pass.front(), 1.0);
+    EXPECT_EQ(pass.back(), 2.0);
+    EXPECT_NEAR(*std::max_element(s.begin(), s.end()), 0.2, 1e-12);
+    // The exciter is off while the roller stands.
+    EXPECT_EQ(rows.numbers("F_excitation").back(), 0.0);
+  }
+}
+
+TEST_F(BedDriven, ContinuesWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
+  for (const int ranks : {1, 2}) {
+    const Scratch stayed, left;
+    well(drive(stayed, {}, ranks));
+    well(drive(left, {{"time_limit", "1e-3"}}, ranks));
+    EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 101U); // a cycle
+    well(drive(left, {{"start", (left / "stopped.restart").string()}}, ranks));
+    for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
+      EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file << ", ranks " << ranks;
+  }
+}
+
+TEST_F(BedDriven, GoesTheSameWayOnRanksOneTwoAndFour) {
+  const Scratch one;
+  well(drive(one, {{"passes", "1"}}));
+  const post::Table alone = post::read_table(one / "bed.csv");
+  for (const int ranks : {2, 4}) {
+    const Scratch folder;
+    well(drive(folder, {{"passes", "1"}}, ranks));
+    const post::Table together = post::read_table(folder / "bed.csv");
+    for (const char *column : {"x_drum", "s"}) {
+      const std::vector<double> a = alone.numbers(column), b = together.numbers(column);
+      ASSERT_EQ(a.size(), b.size());
+      for (std::size_t n = 0; n <= 100; ++n) // 1000 steps
+        EXPECT_NEAR(a[n], b[n], 1e-10) << column << ", row " << n << ", ranks " << ranks;
+    }
+  }
+}
+
+// From the data file bed and roller first come to rest again, so that only the way is the same.
+TEST_F(BedDriven, DrivesInLammps) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const Scratch here, there;
+  well(drive(here, {{"passes", "1"}}));
+  well(drive(there, {{"passes", "1"}}, 1, "in.drive.lammps"));
+  const post::Table a = post::read_table(here / "bed.csv"), b = post::read_table(there / "bed.csv");
+  EXPECT_EQ(a.header(), b.header());
+  EXPECT_EQ(a.numbers("s"), b.numbers("s"));
+  EXPECT_NEAR(place_of_drum(post::dumped_steps(there / "dump").rbegin()->second.balls), 0.2, 1e-12);
+}
+
+TEST_F(BedDriven, RefusesAWayThatItCannotDrive) {
+  const Scratch folder;
+  const auto refused = [&](const Variables &more, const char *line) {
+    EXPECT_TRUE(fails_with(drive(folder, more), line));
+    EXPECT_FALSE(fs::exists(folder / "bed.csv")) << line;
+  };
+  refused({{"passes", "0"}}, "ERROR: drumlin/variable: variable passes is '0'; allowed: ");
+  refused({{"length", "0.09"}},
+          "ERROR: drumlin/variable: variable length is '0.09'; allowed: a number > 0.1 so that it is longer "
+          "than both ramps");
+  refused({{"length", "0.7"}}, "ERROR: drumlin/check: variable length is '0.7'; allowed: a number < 0.6 ");
+  refused({{"margin", "0.2"}}, "ERROR: drumlin/variable: variable margin is '0.2'; allowed: ");
+  refused({{"drum_rotation", "free"}}, "variable drum_rotation is 'free'; allowed: ");
+  refused({{"speed", "-1"}}, "variable speed is '-1'; allowed: ");
+  refused({{"dumps_per_pass", "7"}}, "variable steps_per_cycle is '1000'; allowed: ");
+  refused({{"cycles", "3"}}, "variable cycles is '3'; allowed: ");
+  EXPECT_TRUE(fails_with(run_deck(bed_folder() / "in.place",
+                                  {{"bed", (scratch() / "soil.restart").string()},
+                                   {"start", "x.restart"},
+                                   {"place", "0.41"},
+                                   {"r2", "0.1"}},
+                                  folder.path()),
+                         "ERROR: drumlin/check: variable place is '0.41'; allowed: a number < 0.4 "));
+}
+
+} // namespace
+} // namespace drumlin::test
