@@ -46,11 +46,13 @@ protected:
   }
   static void TearDownTestSuite() { scratch(nullptr); }
 
-  /// Two passes of 0.4 m at 2 m/s, 50 Hz in steps as long as those of the decks.
+  /// Two passes of 0.2 m at 2 m/s, 50 Hz in steps as long as those of the decks.
   static Outcome drive(const Scratch &folder, const Variables &more, int ranks = 1,
                        const char *deck = "in.drive") {
     Variables variables = with(more, {{"speed", "2"},
                                       {"ramp", "0.05"},
+                                      {"length", "0.2"},
+                                      {"margin", "0.05"},
                                       {"omega", "314.1592653589793"},
                                       {"Fw", "2940"},
                                       {"steps_per_cycle", "1000"},
@@ -84,15 +86,15 @@ double place_of_drum(const fs::path &dump) {
 TEST_F(BedDriven, ComesToTheEndsOfItsWayAndItsWorkBalances) {
   for (const char *rotation : {"driven", "towed", "none"}) {
     const Scratch folder;
-    well(drive(folder, {{"drum_rotation", rotation}}));
+    well(drive(folder, {{"drum_rotation", rotation}, {"steps_per_cycle", "2000"}}));
     const std::map<long, post::StepDump> dumps = post::dumped_steps(folder / "dump");
     ASSERT_EQ(dumps.size(), 3U);
     std::vector<double> places;
     for (const auto &[step, files] : dumps)
       places.push_back(place_of_drum(files.balls));
-    EXPECT_NEAR(places[0], -0.2, 1e-12);
-    EXPECT_NEAR(places[1], 0.2, 1e-12);
-    EXPECT_NEAR(places[2], -0.2, 1e-12);
+    EXPECT_NEAR(places[0], -0.2, 1e-8);
+    EXPECT_NEAR(places[1], 0.0, 1e-8);
+    EXPECT_NEAR(places[2], -0.2, 1e-8);
     const post::Table rows = post::read_table(folder / "bed.csv");
     const auto change = [&rows](const char *column) {
       const std::vector<double> values = rows.numbers(column);
@@ -104,12 +106,12 @@ TEST_F(BedDriven, ComesToTheEndsOfItsWayAndItsWorkBalances) {
     double kept = 0.0;
     for (const char *energy : {"kinetic", "potential", "elastic", "dissipated"})
       kept += change(energy);
-    EXPECT_NEAR(kept, given, 1e-3 * std::fabs(change("work_excitation"))) << rotation;
-    EXPECT_GT(std::fabs(change("work_traction")), 0.01 * change("work_excitation")) << rotation;
+    EXPECT_NEAR(kept, given, 1e-3 * given) << rotation;
+    EXPECT_GT(std::fabs(change("work_traction")), 0.01 * given) << rotation;
     const std::vector<double> s = rows.numbers("s"), pass = rows.numbers("pass");
     EXPECT_EQ(pass.front(), 1.0);
     EXPECT_EQ(pass.back(), 2.0);
-    EXPECT_NEAR(*std::max_element(s.begin(), s.end()), 0.2, 1e-12);
+    EXPECT_NEAR(*std::max_element(s.begin(), s.end()), 0.0, 1e-12);
     // The exciter is off while the roller stands.
     EXPECT_EQ(rows.numbers("F_excitation").back(), 0.0);
   }
@@ -129,16 +131,17 @@ TEST_F(BedDriven, ContinuesWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
 
 TEST_F(BedDriven, GoesTheSameWayOnRanksOneTwoAndFour) {
   const Scratch one;
-  well(drive(one, {{"passes", "1"}}));
+  well(drive(one, {{"time_limit", "1e-3"}})); // a cycle, 1000 steps
   const post::Table alone = post::read_table(one / "bed.csv");
   for (const int ranks : {2, 4}) {
     const Scratch folder;
-    well(drive(folder, {{"passes", "1"}}, ranks));
+    well(drive(folder, {{"time_limit", "1e-3"}}, ranks));
     const post::Table together = post::read_table(folder / "bed.csv");
     for (const char *column : {"x_drum", "s"}) {
       const std::vector<double> a = alone.numbers(column), b = together.numbers(column);
-      ASSERT_EQ(a.size(), b.size());
-      for (std::size_t n = 0; n <= 100; ++n) // 1000 steps
+      ASSERT_EQ(a.size(), 101U);
+      ASSERT_EQ(b.size(), 101U);
+      for (std::size_t n = 0; n <= 100; ++n)
         EXPECT_NEAR(a[n], b[n], 1e-10) << column << ", row " << n << ", ranks " << ranks;
     }
   }
@@ -153,7 +156,7 @@ TEST_F(BedDriven, DrivesInLammps) {
   const post::Table a = post::read_table(here / "bed.csv"), b = post::read_table(there / "bed.csv");
   EXPECT_EQ(a.header(), b.header());
   EXPECT_EQ(a.numbers("s"), b.numbers("s"));
-  EXPECT_NEAR(place_of_drum(post::dumped_steps(there / "dump").rbegin()->second.balls), 0.2, 1e-12);
+  EXPECT_NEAR(place_of_drum(post::dumped_steps(there / "dump").rbegin()->second.balls), 0.0, 1e-8);
 }
 
 TEST_F(BedDriven, RefusesAWayThatItCannotDrive) {
@@ -163,22 +166,25 @@ TEST_F(BedDriven, RefusesAWayThatItCannotDrive) {
     EXPECT_FALSE(fs::exists(folder / "bed.csv")) << line;
   };
   refused({{"passes", "0"}}, "ERROR: drumlin/variable: variable passes is '0'; allowed: ");
-  refused({{"length", "0.09"}},
-          "ERROR: drumlin/variable: variable length is '0.09'; allowed: a number > 0.1 so that it is longer "
-          "than both ramps");
-  refused({{"length", "0.7"}}, "ERROR: drumlin/check: variable length is '0.7'; allowed: a number < 0.6 ");
-  refused({{"margin", "0.2"}}, "ERROR: drumlin/variable: variable margin is '0.2'; allowed: ");
+  refused({{"length", "0.09"}}, "ERROR: drumlin/variable: variable length is '0.09'; allowed: a finite "
+                                "number above 0.1, so that it is longer "
+                                "than both ramps");
+  refused({{"length", "0.7"}},
+          "ERROR: drumlin/check: variable length is '0.7'; allowed: a finite number below 0.6, ");
+  refused({{"margin", "0.1"}}, "ERROR: drumlin/variable: variable margin is '0.1'; allowed: ");
   refused({{"drum_rotation", "free"}}, "variable drum_rotation is 'free'; allowed: ");
   refused({{"speed", "-1"}}, "variable speed is '-1'; allowed: ");
   refused({{"dumps_per_pass", "7"}}, "variable steps_per_cycle is '1000'; allowed: ");
-  refused({{"cycles", "3"}}, "variable cycles is '3'; allowed: ");
-  EXPECT_TRUE(fails_with(run_deck(bed_folder() / "in.place",
-                                  {{"bed", (scratch() / "soil.restart").string()},
-                                   {"start", "x.restart"},
-                                   {"place", "0.41"},
-                                   {"r2", "0.1"}},
-                                  folder.path()),
-                         "ERROR: drumlin/check: variable place is '0.41'; allowed: a number < 0.4 "));
+  refused({{"cycles", "3"}},
+          "ERROR: drumlin/variables: -var cycles is '3', a variable that this deck does not have; allowed: ");
+  EXPECT_TRUE(
+      fails_with(run_deck(bed_folder() / "in.place",
+                          {{"bed", (scratch() / "soil.restart").string()},
+                           {"start", "x.restart"},
+                           {"place", "0.41"},
+                           {"r2", "0.1"}},
+                          folder.path()),
+                 "ERROR: drumlin/check: variable place is '0.41'; allowed: a finite number below 0.4, "));
 }
 
 } // namespace
