@@ -57,6 +57,9 @@ void pick_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// tensile strength.
 void suction_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
+/// drumlin/way FILE: sets the variables of the soil along a way to those of its begin, and its ends.
+void way_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
 /// A command as a type, for engines that want a class for each.
 template <void (*run)(LAMMPS_NS::LAMMPS *, int, char **)>
 struct CommandType {
@@ -80,6 +83,7 @@ void for_each_command(Add &&add) {
   add(CommandType<settle_command>(), "drumlin/settle", "runs to static equilibrium");
   add(CommandType<surface_command>(), "drumlin/surface", "measures the mean height of a surface");
   add(CommandType<suction_command>(), "drumlin/suction", "finds the suction for a tensile strength");
+  add(CommandType<way_command>(), "drumlin/way", "takes the ends of a way and its soil from a file");
   add(CommandType<write_command>(), "drumlin/write", "writes restart and data files with notes");
 }
 

@@ -196,7 +196,7 @@ private:
     ContactSet rare = push(first, end, law.contact);
     if (law.suction != 0.0) physics::attract(block, first, end, law.suction);
     if constexpr (stepped) {
-      rare |= in_setup_ ? between(first, end) : changed_;
+      rare |= in_setup_ || law.jumps ? between(first, end) : changed_;
       if (moved_) rare |= with_moved_balls(first, end);
       exert_rare(rare, first, end, law.contact);
     }
@@ -333,15 +333,18 @@ private:
     const physics::StepContext context{moving_mass(n), block.damping_over_mass[n], in_setup_};
     const physics::ContactState before{block.force_before[n], (new_ >> n & 1) == 0};
     physics::ContactState state = before;
-    const physics::StepResult step = physics::advance(law, motion, state, context);
-    const double suction = law_of(n).suction;
+    const ContactCoefficients<Parameters> &coefficients = law_of(n);
+    const bool jumps = coefficients.jumps && before.in_contact && contact.touches && !in_setup_;
+    const physics::StepResult step =
+        jumps ? over_jump(n, law, motion, state, context) : physics::advance(law, motion, state, context);
+    const double suction = coefficients.suction;
     const physics::StepResult acting = physics::with_suction(step, suction, motion, before, in_setup_);
     const std::size_t announced = stepping_->announced();
     exert_later(n, acting);
     double &stored_force = contact.history[places_[Remembered::force]];
     if (step.coupled) couple(n, step.dashpot, stored_force);
     if (step.begins) begin(n, step, announced);
-    if (stepping_->counts_heat())
+    if (stepping_->counts_heat() && !jumps)
       stepping_->tell_heat(
           contact.i, contact.j,
           share() * physics::heat_of_change(law, suction, motion, before, step, acting, context.m_eff), 0.0);
@@ -350,6 +353,24 @@ private:
     if (!state.in_contact || !stepping_->counting()) return;
     stepping_->add_damping(contact.i, law.dashpot(overlap));
     if (!at_walls) stepping_->add_damping(contact.j, law.dashpot(overlap));
+  }
+
+  /// The normal force of a contact that goes on while its law jumps. It is never solved for together with
+  /// others, which a single step does not need.
+  physics::StepResult over_jump(int n, const typename Parameters::Law &after,
+                                const physics::StepMotion &motion, physics::ContactState &state,
+                                const physics::StepContext &context) const {
+    const ContactCoefficients<Parameters> &coefficients = law_of(n);
+    const double force_before = state.force, after_jump = coefficients.share_after;
+    const typename Parameters::Law law = law_before(n, coefficients.contact_before);
+    const physics::StepResult step =
+        physics::advance_over_jump(law, after, after_jump, motion, state, context.m_eff);
+    if (stepping_->counts_heat())
+      stepping_->tell_heat(contacts_[n].i, contacts_[n].j,
+                           share() * physics::heat_of_jump(law, after, after_jump, motion, force_before,
+                                                           step.kick, context.m_eff),
+                           0.0);
+    return step;
   }
 
   /// Passes to FixStepping the forces that act after the closing half kick: the rest of the force up to

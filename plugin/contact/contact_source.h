@@ -30,6 +30,12 @@ class ContactSource {
 public:
   /// The coefficients of the law. Valid from the initialization of a run on.
   virtual AnyTable table() const = 0;
+  /// The same, to be changed by a fix, of the linear law; nullptr: the deck has another. Valid until the next
+  /// initialization. Whoever has changed it calls note_change().
+  virtual CoefficientTable<physics::LinearContact> *linear_table() = 0;
+  void note_change() { ++changes_; }
+  /// Number of changes of the coefficients so far.
+  std::size_t changes() const { return changes_; }
   /// The law of balls i and j (local or ghost indices). \param memory of their contact, see law_memory()
   AnyLaw law(int i, int j, double memory) const;
   /// Suction F_a, N, of balls i and j, which the law does not contain.
@@ -79,6 +85,8 @@ protected:
   virtual physics::Cap cap() const = 0;
 
 private:
+  std::size_t changes_ = 0;
+
   const double *stored(int i, int jj, Remembered what) const {
     const int place = places()[what];
     return place < 0 ? nullptr : history(i, jj) + place;
@@ -92,16 +100,20 @@ inline double memory_at(const double *memory) { return memory != nullptr ? *memo
 class PairLaw {
 public:
   PairLaw(const ContactSource &source, int i, int j, double memory)
-      : sizes_(source.sizes(i, j)), memory_(memory), law_(source.law(i, j, memory)) {}
-  /// Makes the law anew if the mass or the radius of a ball, or what the contact remembers, has changed.
+      : sizes_(source.sizes(i, j)), memory_(memory), changes_(source.changes()),
+        law_(source.law(i, j, memory)) {}
+  /// Makes the law anew if the mass or the radius of a ball, the coefficients, or what the contact remembers,
+  /// has changed.
   void follow(const ContactSource &source, int i, int j, double memory) {
-    if (memory != memory_ || source.sizes(i, j) != sizes_) *this = PairLaw(source, i, j, memory);
+    if (memory != memory_ || source.changes() != changes_ || source.sizes(i, j) != sizes_)
+      *this = PairLaw(source, i, j, memory);
   }
   const AnyLaw &law() const { return law_; }
 
 private:
   std::array<double, 4> sizes_;
   double memory_;
+  std::size_t changes_;
   AnyLaw law_;
 };
 
@@ -115,6 +127,6 @@ std::string other_pair_style(const engine::LAMMPS *lmp, const std::string &comma
 
 /// Source of the pair style of this engine instance, or of the part of a hybrid pair style that has one of
 /// the laws; nullptr if there is none, or more than one. Valid from the initialization of a run on.
-const ContactSource *contact_source(engine::LAMMPS *lmp);
+ContactSource *contact_source(engine::LAMMPS *lmp);
 
 } // namespace drumlin

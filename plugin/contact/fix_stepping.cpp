@@ -91,7 +91,7 @@ void FixStepping::init() {
   observers_.find(*modify);
   moved_bits_ = travelling_bits_ = free_bits_ = 0;
   prescribed_bits_ = {};
-  dt_varies_ = false;
+  varies_ = false;
   for (Fix *fix : drumlin::engine::fixes(modify)) {
     const std::string name = fix->style;
     if (moves(name))
@@ -100,7 +100,7 @@ void FixStepping::init() {
       add_travelling(*fix);
     else if (fix->time_integrate != 0 || name == "freeze" || name.rfind("multisphere", 0) == 0)
       free_bits_ |= fix->groupbit;
-    dt_varies_ = dt_varies_ || drumlin::changes_time_step(name);
+    varies_ = varies_ || drumlin::changes_time_step(name) || name == "contact/way";
   }
   constraints_.clear();
   for (Fix *fix : drumlin::engine::fixes(modify))
@@ -314,8 +314,9 @@ void FixStepping::expect_contacts() {
   }
   std::array<double, 2> all = mine;
   if (comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 2, MPI_DOUBLE, MPI_MAX, world);
-  // Where the time step may grow within the run the sums of a step are needed for any time step of the next.
-  counting_ = dt_varies_ || drumlin::physics::needs_coupling(update->dt, all[1], 1.0, 2.0 * all[0]);
+  // Where time step or coefficients may grow within the run the sums of a step are needed for any of the
+  // next.
+  counting_ = varies_ || drumlin::physics::needs_coupling(update->dt, all[1], 1.0, 2.0 * all[0]);
   expected_dt_ = update->dt;
 }
 

@@ -280,9 +280,9 @@ private:
   bool masses_change_ = false; // or one of any rank's
   const drumlin::ContactSource *source_ = nullptr; // since the set-up of the run
   double dt_ = 0.0;
-  double told_dt_ = 0.0;           // time step of which the engine has told its fixes
-  bool dt_varies_ = false;         // whether a fix may change it within the run
-  double expected_dt_ = 0.0;       // time step for which counting_ was decided
+  double told_dt_ = 0.0;     // time step of which the engine has told its fixes
+  bool varies_ = false;      // whether a fix may change it, or the coefficients of contacts, within the run
+  double expected_dt_ = 0.0; // time step for which counting_ was decided
   std::vector<Expected> expected_; // links that are not contacts
   // One entry per ball:
   double **velocity_ = nullptr;      // v(t), at the end of a step v*, m/s; sum of c/m in the last step, 1/s

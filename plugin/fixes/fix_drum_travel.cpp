@@ -302,7 +302,7 @@ void FixDrumTravel::initial_integrate(int) {
 /// given.
 void FixDrumTravel::final_integrate() {
   const Sums closing = sums(false);
-  const double dt = update->dt, impulse = 0.5 * dt * (opening_.force + closing.force);
+  const double dt = clock_.dt(), impulse = 0.5 * dt * (opening_.force + closing.force);
   const double momentum = closing.mass * (now_.velocity - before_.velocity);
   traction_ = (momentum - impulse) / dt;
   work_ += 0.5 * momentum * (now_.velocity + before_.velocity) - impulse * half_velocity_;
@@ -326,6 +326,15 @@ void FixDrumTravel::final_integrate() {
 /// Change of a towed drum's angular velocity in half a step, rad/s.
 double FixDrumTravel::spin_change(double torque) const {
   return rotation_ == Rotation::towed ? 0.5 * update->dt * torque / drum_inertia_ : 0.0;
+}
+
+void FixDrumTravel::add_work(double work) {
+  work_ += work;
+  if (const double way = way_of_step(); way != 0.0) traction_ += work / way;
+}
+
+double FixDrumTravel::time_in_pass() const {
+  return clock_.time(update->ntimestep) - (now_.pass - 1) * (travel_.pass_time() + travel_.pause);
 }
 
 double FixDrumTravel::on_grid(double place) const { return spacing_ * std::nearbyint(place / spacing_); }

@@ -45,6 +45,12 @@ public:
   const drumlin::physics::TravelState &state() const { return now_; }
   /// Amplitude of the vibration over its full one, 0 to 1: that of the speed.
   double vibration() const { return std::fabs(now_.velocity) / travel_.speed; }
+  /// Adds work, J, of this step that soil takes from the roller without a force on its balls.
+  void add_work(double work);
+  /// Way of this step, m, towards greater places.
+  double way_of_step() const { return half_velocity_ * clock_.dt(); }
+  /// Time, s, by which the present pass had begun at the end of this step.
+  double time_in_pass() const;
   /// Work of traction and torque on the group, J.
   double work() const { return work_ + torque_work_; }
   /// Traction, N, and torque, N m, means of the last step, and their works since the begin, J.

@@ -7,6 +7,7 @@
 #include "fixes/fix_contact_energy.h"
 #include "fixes/fix_contact_events.h"
 #include "fixes/fix_contact_local.h"
+#include "fixes/fix_contact_way.h"
 #include "fixes/fix_drum_excite.h"
 #include "fixes/fix_drum_travel.h"
 #include "fixes/fix_guard.h"
@@ -31,6 +32,7 @@ void for_each_fix(Add &&add) {
   add(FixType<LAMMPS_NS::FixContactEvents>(), "contact/events", "makes and breaks of contact");
   add(FixType<LAMMPS_NS::FixContactLocal>(), "contact/local", "contacts and their forces for dump local");
   add(FixType<LAMMPS_NS::FixContactEnergy>(), "contact/energy", "energies of balls and contacts, and heat");
+  add(FixType<LAMMPS_NS::FixContactWay>(), "contact/way", "soil that changes along a way");
   add(FixType<LAMMPS_NS::FixRollerHistory>(), "roller/history", "motion and forces of drum and frame");
   add(FixType<LAMMPS_NS::FixGuard>(), "guard", "checks of time step, overlaps and finite numbers");
 }

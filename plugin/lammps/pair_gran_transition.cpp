@@ -78,9 +78,11 @@ drumlin::AnyTable PairGranTransition::table() const {
   return std::visit([](const auto &table) -> drumlin::AnyTable { return &table; }, tables_);
 }
 
-const drumlin::ContactSource *drumlin::contact_source(engine::LAMMPS *lmp) {
-  return PairGranTransition::find(lmp);
+drumlin::CoefficientTable<drumlin::physics::LinearContact> *PairGranTransition::linear_table() {
+  return std::get_if<drumlin::CoefficientTable<drumlin::physics::LinearContact>>(&tables_);
 }
+
+drumlin::ContactSource *drumlin::contact_source(engine::LAMMPS *lmp) { return PairGranTransition::find(lmp); }
 
 void PairGranTransition::settings(int narg, char **arg) {
   drumlin::Arguments in(error, "pair_style " + style_name(), narg, arg);

@@ -80,6 +80,7 @@ public:
 #endif
 
   drumlin::AnyTable table() const override;
+  drumlin::CoefficientTable<drumlin::physics::LinearContact> *linear_table() override;
   double mass(int i) const override;
   /// The same, kg, but finite for a ball in the group of fix freeze: walls do not treat such balls
   /// differently.

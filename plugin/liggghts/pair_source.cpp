@@ -53,14 +53,15 @@ PairSource *pair_source(LAMMPS *lmp) {
   return proxy == nullptr ? nullptr : dynamic_cast<PairSource *>(style_of(*proxy));
 }
 
-const ContactSource *contact_source(LAMMPS *lmp) {
-  const PairSource *contacts = pair_source(lmp);
+ContactSource *contact_source(LAMMPS *lmp) {
+  PairSource *contacts = pair_source(lmp);
   return contacts != nullptr && contacts->has_table() ? contacts : nullptr;
 }
 
 void PairSource::begin(LAMMPS_NS::PairGran *pair, const ContactSettings &settings) {
   pair_ = pair;
   table_.reset();
+  linear_table_ = nullptr;
   wall_tables_.clear();
   clumps_.find(*lmp_->modify);
   settings_ = settings;

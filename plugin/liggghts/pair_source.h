@@ -121,6 +121,7 @@ public:
   explicit PairSource(LAMMPS_NS::LAMMPS *lmp) : lmp_(lmp) {}
 
   AnyTable table() const override { return *table_; }
+  CoefficientTable<physics::LinearContact> *linear_table() override { return linear_table_; }
   double mass(int i) const override;
   physics::Dashpots wall_dashpots(int i) const override;
   FrictionModel friction_model() const override { return settings_.tangential; }
@@ -128,7 +129,11 @@ public:
   const double *history(int i, int jj) const override;
   const HistoryPlaces &places() const override { return places_; }
 
-  void take(const AnyTable &table) { table_ = table; }
+  template <class Contact>
+  void take(CoefficientTable<Contact> &table) {
+    table_ = &table;
+    if constexpr (std::is_same_v<Contact, physics::LinearContact>) linear_table_ = &table;
+  }
   void take_wall(const AnyTable &table) { wall_tables_.push_back(table); }
   bool has_table() const { return table_.has_value(); }
 
@@ -142,6 +147,7 @@ private:
   LAMMPS_NS::LAMMPS *lmp_;
   LAMMPS_NS::PairGran *pair_ = nullptr;
   std::optional<AnyTable> table_;
+  CoefficientTable<physics::LinearContact> *linear_table_ = nullptr;
   std::vector<AnyTable> wall_tables_;
   LAMMPS_NS::Clumps clumps_;
   bool meshes_ = false;
@@ -168,7 +174,7 @@ void read_table(CoefficientTable<Contact> &table, LAMMPS_NS::LAMMPS *lmp, int nt
       p.contact = law(i, j);
       damping.set(p, i, j, settings);
     }
-  if (PairSource *contacts = pair_source(lmp)) is_wall ? contacts->take_wall(&table) : contacts->take(&table);
+  if (PairSource *contacts = pair_source(lmp)) is_wall ? contacts->take_wall(&table) : contacts->take(table);
 }
 
 } // namespace drumlin

@@ -24,8 +24,8 @@ struct OtherFixes {
 
 constexpr OtherFixes other_fixes[] = {
     {"is part of the plugin", Verdict::right, Verdict::right,
-     "bond/spring boundary/absorb clump contact/energy contact/events contact/local drum/excite drum/travel "
-     "guard roller/history wall/gran/transition"},
+     "bond/spring boundary/absorb clump contact/energy contact/events contact/local contact/way "
+     "drum/excite drum/travel guard roller/history wall/gran/transition"},
     {"computes, stores or writes", Verdict::right, Verdict::right,
      "ave/atom ave/chunk ave/correlate ave/correlate/long ave/euler ave/euler/stress ave/grid ave/histo "
      "ave/histo/weight ave/moments ave/spatial ave/spatial/sphere ave/time check/timestep/gran "

@@ -155,6 +155,11 @@ void count_cycles(Run &run) {
 }
 
 void read_chain_parameters(Run &run) {
+  if (run.text("way", "none") != "none") {
+    run.missing.emplace_back("the roller drives, over soil that may change: the run is not compared with "
+                             "reference values or the reference solution, which are of a chain that stands.");
+    return;
+  }
   if (!take_chain(run, run)) return;
   run.kind = RunKind::chain;
   run.case_name = run.text("case", "");

@@ -57,7 +57,8 @@ struct TravelState {
   bool cruises = false;      ///< at its full speed
 };
 
-/// The state at a time, s, since the begin of the first pass. Where the speed jumps it has its later value.
+/// The state at a time, s, since the begin of the first pass. Where the speed
+/// jumps it has its later value, but at the end of the last pass its earlier one.
 [[nodiscard]] inline TravelState travel_state(const Travel &travel, double time) {
   const double whole = travel.pass_time(), period = whole + travel.pause;
   const int pass = static_cast<int>(std::min(std::max(std::floor(time / period), 0.0), travel.passes - 1.0));
@@ -68,15 +69,17 @@ struct TravelState {
   const auto way = [&](double u) { return travel.speed * travel.ramp * u * u * u * (1.0 - 0.5 * u); };
   const auto part = [](double u) { return u * u * (3.0 - 2.0 * u); };
   const auto slope = [&](double u) { return travel.speed / travel.ramp * 6.0 * u * (1.0 - u); };
-  // Without a pause the next pass begins at once: rounding of the times must not let the roller stand
-  // between.
-  if (left > 0.0 || (travel.pause == 0.0 && pass + 1 < travel.passes)) {
+  // Without a pause the next pass begins at once, and the last one has its end: rounding of the times must
+  // not let the roller stand between, nor at the end.
+  const bool last = pass + 1 == travel.passes;
+  constexpr double rounding = 1e-9;
+  if (left > 0.0 || (last ? left > -rounding * whole : travel.pause == 0.0)) {
     if (since < travel.ramp) {
       const double u = share(since);
       driven = way(u);
       speed = travel.speed * part(u);
       acceleration = slope(u);
-    } else if (left < travel.ramp) {
+    } else if (travel.ramp > 0.0 && left < travel.ramp) {
       const double u = share(left);
       driven = travel.length() - way(u);
       speed = travel.speed * part(u);

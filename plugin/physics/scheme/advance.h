@@ -233,6 +233,42 @@ template <class Law>
   return {state.force, dashpot.first, 0.0, 1.0, false, true, dashpot};
 }
 
+/// One step of a contact whose law jumps within it, as where a roller comes to other soil: spring and dashpot
+/// of `before` act until the jump, those of `after` for the share of the step behind it. The closing half
+/// kick gives the impulse of both, and the position correction does the same for the drift, so that the step
+/// is exact for constant forces:
+///   kick = (1 - 2 share) F_before + 2 share F_after,
+/// both forces at the end of the step, with the velocity that this half kick gives.
+/// \param state of a contact that goes on, at the beginning of the step on entry and at its end on return
+template <class Law>
+[[nodiscard]] inline StepResult advance_over_jump(const Law &before, const Law &after, double share,
+                                                  const StepMotion &motion, ContactState &state,
+                                                  double m_eff) {
+  const double d = motion.overlap, per_mass = 0.5 * motion.dt / m_eff;
+  const double first = 1.0 - 2.0 * share, second = 2.0 * share;
+  const double spring = first * before.spring(d) + second * after.spring(d);
+  // Below 0 where the dashpot before is much stronger; it would then make the motion faster.
+  const double dashpot = std::max(0.0, first * before.dashpot(d) + second * after.dashpot(d));
+  const double rate =
+      (motion.rate_predicted() - per_mass * (spring - state.force)) / (1.0 + per_mass * dashpot);
+  const double force_before = before.force(d, rate);
+  state.force = after.force(d, rate);
+  return {state.force, first * force_before + second * state.force,
+          share * share * (state.force - force_before), 1.0};
+}
+
+/// Heat of the dashpots in such a step that the trapezoidal rule misses, J. \param force_before N, stored at
+/// its beginning \param kick that advance_over_jump() has returned
+template <class Law>
+[[nodiscard]] inline double heat_of_jump(const Law &before, const Law &after, double share,
+                                         const StepMotion &motion, double force_before, double kick,
+                                         double m_eff) {
+  const double d = motion.overlap;
+  const double rate = motion.rate_predicted() - 0.5 * motion.dt * (kick - force_before) / m_eff;
+  const double change = after.force(d, rate) - after.spring(d) - before.force(d, rate) + before.spring(d);
+  return motion.dt * (share - 0.5) * change * rate;
+}
+
 /// The forces of a contact with suction: a constant attraction F_a that acts while the balls touch, on top of
 /// the force of the law, so that
 ///   Fc = (spring and dashpot under the transition condition) - F_a  for d > 0, else 0.

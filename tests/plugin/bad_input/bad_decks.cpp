@@ -47,6 +47,23 @@ BadGroup of_deck(const std::string &name, const std::string &deck, const std::ve
   return group;
 }
 
+BadGroup chain_way() {
+  const std::string way = "way " DRUMLIN_SOURCE_DIR "/inputs/chain/way";
+  return of_deck(
+      "ChainWay", "chain/in.chain", {},
+      {{"no file", "way none.csv", "drumlin/way: way is 'none.csv' ... a file that can be read",
+        on_two_ranks},
+       {"stiffness given", way + ", k 1e7", "drumlin/way: variable k is '1e7' ... none with a way",
+        on_two_ranks},
+       {"damping given", way + ", D 0.1", "drumlin/way: variable D is '0.1' ... none with a way"},
+       {"cycles given", way + ", cycles 5", "variable cycles is '5' ... not given with way"},
+       {"speed without way", "speed 1", "variable speed is '1' ... not given without way"},
+       {"passes without way", "passes 2", "variable passes is '2' ... not given without way"},
+       {"speed zero", way + ", speed 0", "variable speed is '0' ... a finite number > 0"},
+       {"no passes", way + ", passes 0", "variable passes is '0' ... a whole number from 1 to 1000"},
+       {"too slow", way + ", speed 1e-6", "variable speed is '1e-6' ... so that all passes take"}});
+}
+
 BadGroup chain_choices() {
   return of_deck(
       "ChainChoices", "chain/in.chain",
@@ -378,7 +395,8 @@ BadGroup cost_bed() {
 } // namespace
 
 std::vector<BadGroup> bad_variables() {
-  return {chain_choices(),
+  return {chain_way(),
+          chain_choices(),
           chain_numbers(),
           chain_counts(),
           chain_folder(),

@@ -52,6 +52,9 @@ BadGroup drum_excite() {
        "keyword axis ... cosine ... right angles"},
       {"axis without rotation", more + " axis 0 1 0",
        "keyword mode is 'directed', with keyword axis ... mode rotating"},
+      {"travel without value", more + " travel", "keyword travel is missing ... the ID of a fix drum/travel"},
+      {"unknown roller", more + " travel gravity",
+       "keyword travel is 'gravity' ... the ID of a fix drum/travel", on_two_ranks},
       {"unknown keyword", more + " amplitud 5", "keyword is 'amplitud' ... amplitude ... axis"},
       {"empty group", "fix excite nobody drum/excite amplitude 1 omega 100",
        "group is 'nobody', which is empty ... at least one ball", on_two_ranks},
@@ -60,6 +63,100 @@ BadGroup drum_excite() {
       {"unknown group", "fix excite nogroup drum/excite amplitude 1 omega 100", "Could not find fix group ID",
        in_engine_words},
       {"no style", "fix excite drum", "Illegal fix command", in_engine_words},
+  });
+}
+
+BadGroup drum_travel() {
+  const std::string more = "@ from 0 to 1 speed 1";
+  return Table{"DrumTravel", "fix drum/travel: ", "fix travel drum drum/travel"}.of({
+      {"nothing", "@", "keyword from is missing ... from S", on_two_ranks},
+      {"no end", "@ from 0 speed 1", "keyword to is missing ... to S"},
+      {"no speed", "@ from 0 to 1", "keyword speed is missing ... speed V"},
+      {"from without value", "@ from", "keyword from is missing ... a finite number"},
+      {"to a word", "@ from 0 to end speed 1", "keyword to is 'end' ... a finite number"},
+      {"to infinite", "@ from 0 to inf speed 1", "keyword to is 'inf' ... a finite number"},
+      {"no way", "@ from 1 to 1 speed 1", "way is '0 m' long ... more than 0"},
+      {"speed zero", "@ from 0 to 1 speed 0", "keyword speed is '0' ... > 0"},
+      {"speed negative", "@ from 1 to 0 speed -1", "keyword speed is '-1' ... > 0"},
+      {"speed NaN", "@ from 0 to 1 speed nan", "keyword speed is 'nan' ... > 0"},
+      {"ramp negative", more + " ramp -0.1", "keyword ramp is '-0.1' ... >= 0"},
+      {"ramps longer than the way", more + " ramp 1.5",
+       "way is '1 m' long ... at least 1.5 m, which the two ramps take", on_two_ranks},
+      {"pause negative", more + " pause -1", "keyword pause is '-1' ... >= 0"},
+      {"no passes", more + " passes 0", "keyword passes is '0' ... a whole number from 1", on_two_ranks},
+      {"half a pass", more + " passes 1.5", "keyword passes is '1.5' ... a whole number from 1"},
+      {"unknown direction", more + " direction back", "keyword direction is 'back' ... both or one"},
+      {"unknown axis", more + " axis s", "keyword axis is 's' ... x, y or z"},
+      {"unknown rotation", more + " rotation yes", "keyword rotation is 'yes' ... none, driven or towed"},
+      {"a drum without radius", more + " rotation driven radius 0", "keyword radius is '0' ... > 0"},
+      {"radius of a drum that does not roll", more + " radius 1",
+       "keyword radius is '1' ... rotation driven only"},
+      {"no inertia", more + " rotation towed inertia 0", "keyword inertia is '0' ... > 0"},
+      {"inertia of a drum that does not turn", more + " inertia 5",
+       "keyword inertia is '5' ... rotation driven or towed only"},
+      {"drum of several balls", "fix travel roller drum/travel from 0 to 1 speed 1 rotation driven",
+       "keyword drum is 'roller', a group of 2 balls, of which 2 drive ... a group of one ball",
+       on_two_ranks},
+      {"drum that does not drive",
+       "fix travel frame drum/travel from 0 to 1 speed 1 rotation towed drum drum",
+       "keyword drum is 'drum', a group of 1 balls, of which 0 drive ... one ball that drives"},
+      {"unknown drum", more + " drum nogroup", "keyword drum is 'nogroup' ... the name of a group"},
+      {"no direction up", "unfix gravity\n" + more + " rotation driven",
+       "keyword rotation is 'driven', and there is neither gravity nor a keyword up ... with a direction up"},
+      {"up along the way", more + " rotation towed up 1 0 0",
+       "keyword rotation is 'towed', and keyword up has no part across the way"},
+      {"up of no length", more + " up 0 0 0", "keyword up is '0 0 0' ... a length"},
+      {"unknown keyword", more + " velocity 5", "keyword is 'velocity' ... from, to, speed"},
+      {"before the integration", "unfix integrate\n" + more + "\nfix integrate roller nve/sphere",
+       "group is 'drum', of which 1 balls are moved by fix integrate (nve/sphere) behind it ... behind all "
+       "fixes",
+       on_two_ranks},
+      {"two for a ball", more + "\nfix again roller drum/travel from 0 to 1 speed 1",
+       "group is 'drum', of which 1 balls are moved by fix ... (drum/travel) ... one fix drum/travel for a "
+       "ball"},
+      {"beyond the box", "@ from 0 to 5 speed 1",
+       "way is '0 to 5 m' along x for the centres of the balls ... inside of the box, -2 to 2 m",
+       on_two_ranks},
+      {"empty group", "fix travel nobody drum/travel from 0 to 1 speed 1",
+       "group is 'nobody', which is empty ... balls that drive", on_two_ranks},
+  });
+}
+
+BadGroup contact_way() {
+  // A way from 0 to 2 m, made by the deck.
+  const std::string file = "print \"s (m),k (N/m),D (-)\" file out/way.csv screen no\n"
+                           "print \"0,1e7,0.2\" append out/way.csv screen no\n"
+                           "print \"2,1e7,0.2\" append out/way.csv screen no\n";
+  const std::string travel = "fix travel drum drum/travel from 0 to 1 speed 1\n";
+  const std::string more = file + travel + "@ file out/way.csv travel travel between soil drum";
+  return Table{"ContactWay", "fix contact/way: ", "fix way all contact/way"}.of({
+      {"nothing", "@", "keyword file is missing ... file NAME travel ID between GROUP GROUP"},
+      {"no roller", file + "@ file out/way.csv between soil drum",
+       "keyword travel is missing ... fix drum/travel"},
+      {"no groups", file + "@ file out/way.csv travel travel",
+       "keyword between is missing ... soil and drum"},
+      {"one group", file + "@ file out/way.csv travel travel between soil",
+       "keyword between is missing ... the name of a group"},
+      {"unknown group", file + "@ file out/way.csv travel travel between soil stone",
+       "keyword between is 'stone' ... the name of a group"},
+      {"no file", "@ file out/none.csv travel travel between soil drum",
+       "way is 'out/none.csv' ... a file that can be read, with the columns s (m),k (N/m),D (-)",
+       on_two_ranks},
+      {"another file", "@ file lines travel travel between soil drum",
+       "header in line 1 of 'lines' is ... s (m),k (N/m),D (-)"},
+      {"unknown roller", file + "@ file out/way.csv travel gravity between soil drum",
+       "keyword travel is 'gravity' ... the ID of a fix drum/travel", on_two_ranks},
+      {"a way too short",
+       file + "fix travel drum drum/travel from 0 to 2.5 speed 1 axis z up 1 0 0\n@ file out/way.csv travel "
+              "travel "
+              "between soil drum",
+       "way of 'out/way.csv' is '0 to 2 m' ... one that has the places 0 to 2.5 m of fix travel",
+       on_two_ranks},
+      {"groups of several types", file + travel + "@ file out/way.csv travel travel between soil roller",
+       "keyword between is 'roller', a group of several types ... all balls of one type", on_two_ranks},
+      {"a group without balls", file + travel + "@ file out/way.csv travel travel between nobody drum",
+       "keyword between is 'nobody', a group without balls ... all balls of one type"},
+      {"unknown keyword", more + " damping 1", "keyword is 'damping' ... file, travel or between"},
   });
 }
 
@@ -237,6 +334,9 @@ BadGroup roller_history() {
       {"excite of another style", more + " excite gravity",
        "keyword excite is 'gravity' ... ID of a fix drum/excite"},
       {"excite without ID", more + " excite", "keyword excite is missing ... ID of a fix drum/excite"},
+      {"unknown roller that drives", more + " travel excite",
+       "keyword travel is 'excite' ... the ID of a fix drum/travel"},
+      {"travel without ID", more + " travel", "keyword travel is missing ... ID of a fix drum/travel"},
       {"unknown bond", more + " bond spring", "keyword bond is 'spring' ... ID of a fix bond/spring"},
       {"bond without ID", more + " bond", "keyword bond is missing ... ID of a fix bond/spring"},
       {"axis with two", more + " axis 0 1", "keyword axis, z is missing ... a finite number"},
@@ -706,6 +806,8 @@ BadGroup fixes_in_lammps() {
 
 std::vector<BadGroup> bad_lines() {
   return {drum_excite(),
+          drum_travel(),
+          contact_way(),
           bond_spring(),
           boundary_absorb(),
           clump(),

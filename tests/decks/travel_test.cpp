@@ -1,0 +1,308 @@
+// A drum that fix drum/travel moves over a floor or a row of balls, in both engines: its place against the
+// formulas of the page of the fix, restarts, ranks, friction that makes it roll, and the energy balance.
+#include "tests/support/checks.h"
+#include "tests/support/engine_and_scheme.h"
+#include "tests/support/frame_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+constexpr double radius = 0.2, mass = 10, g = 9.81, k = 1e6, overlap = mass * g / k;
+
+/// A row of travel.txt.
+struct Row {
+  double time, pass, place, velocity, traction, torque, work, torque_work, spin, kinetic, springs, heat,
+      height, Fe;
+  double energy() const { return kinetic + springs + mass * g * height; }
+};
+
+std::vector<Row> read_rows(const std::filesystem::path &file) {
+  std::istringstream in(read_text(file));
+  std::vector<Row> rows;
+  for (std::string line; std::getline(in, line);) {
+    Row row{};
+    std::istringstream numbers(line);
+    double *const first = &row.time;
+    int count = 0;
+    while (count < 14 && numbers >> first[count])
+      ++count;
+    if (count == 14) rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Place and velocity of a pass as the page has them.
+struct Programme {
+  double length, speed, ramp, pause;
+  double pass_time() const { return length / speed + ramp; }
+  double velocity(double since) const {
+    const double u = ramp == 0 ? 1 : std::min({since / ramp, (pass_time() - since) / ramp, 1.0});
+    return since < 0 || since >= pass_time() ? 0 : speed * u * u * (3 - 2 * u);
+  }
+  double way(double since) const {
+    if (since <= 0) return 0;
+    if (since >= pass_time()) return length;
+    const auto ramped = [&](double t) {
+      const double u = t / ramp;
+      return speed * ramp * (u * u * u - u * u * u * u / 2);
+    };
+    if (since < ramp) return ramped(since);
+    if (pass_time() - since < ramp) return length - ramped(pass_time() - since);
+    return speed * (since - ramp / 2);
+  }
+};
+
+class TravellingDrum : public BothEngines {
+protected:
+  static std::string engine() { return std::get<0>(GetParam()); }
+  static std::string deck(const std::string &name) {
+    return name + (engine() == "lammps" ? ".lammps" : ".in");
+  }
+  static bool second() { return std::get<1>(GetParam()) == "second"; }
+};
+
+TEST_P(TravellingDrum, IsWhereTheProgrammeSaysToRoundingAlsoFarFromZero) {
+  const Programme programme{0.5, 1, 0.1, 0.05};
+  const double period = programme.pass_time() + programme.pause;
+  for (const double x0 : {0.0, 1e4, -1e4 - 1.0 / 3.0}) {
+    const Scratch folder;
+    well(run("travel", folder,
+             {{"words", "from 3 to 3.5 speed 1 ramp 0.1 pause 0.05 passes 3"},
+              {"x0", number(x0)},
+              {"steps", "20000"},
+              {"every", "7"}}));
+    const std::vector<Frame> frames = read_dump(folder / "balls.txt");
+    ASSERT_GT(frames.size(), 2000u);
+    const double spacing = std::nextafter(std::fabs(x0) + 1, 1e9) - std::fabs(x0) - 1;
+    double worst_x = 0, worst_v = 0;
+    for (const Frame &frame : frames) {
+      const double t = static_cast<double>(frame.step) * 1e-4;
+      const int pass = std::min(2, static_cast<int>(t / period));
+      const double since = t - pass * period, way = programme.way(since);
+      const double x = x0 + (pass % 2 == 0 ? way : programme.length - way);
+      const double v = (pass % 2 == 0 ? 1 : -1) * programme.velocity(since);
+      const Ball &ball = frame.balls.begin()->second;
+      worst_x = std::max(worst_x, std::fabs(ball.x[0] - x));
+      worst_v = std::max(worst_v, std::fabs(ball.v[0] - v));
+      for (const double spin : ball.omega)
+        ASSERT_EQ(spin, 0.0);
+    }
+    EXPECT_LT(worst_x, 2 * spacing + 1e-14) << x0;
+    EXPECT_LT(worst_v, 1e-12) << x0;
+    const std::vector<Row> rows = read_rows(folder / "travel.txt");
+    EXPECT_EQ(rows.back().place, 3.5);
+    EXPECT_EQ(rows.back().pass, 3);
+  }
+}
+
+TEST_P(TravellingDrum, GoesRoundAPeriodicBoxInOneDirection) {
+  const Scratch folder;
+  well(run("travel", folder,
+           {{"words", "from 0 to 2 speed 4 ramp 0.1 passes 3 direction one rotation driven"},
+            {"sides", "p"},
+            {"steps", "18500"},
+            {"every", "100"}}));
+  const Programme programme{2, 4, 0.1, 0};
+  for (const Frame &frame : read_dump(folder / "balls.txt")) {
+    const double t = static_cast<double>(frame.step) * 1e-4;
+    const int pass = std::min(2, static_cast<int>(t / programme.pass_time()));
+    const double way = 2 * pass + programme.way(t - pass * programme.pass_time());
+    const Ball &ball = frame.balls.begin()->second;
+    EXPECT_NEAR(std::remainder(ball.x[0] - way, 2.0), 0, 1e-12) << frame.step;
+  }
+  EXPECT_NEAR(read_rows(folder / "travel.txt").back().place, 2, 1e-12);
+}
+
+TEST_P(TravellingDrum, ContinuesFromARestartFileBitwiseInAPassAndInATurn) {
+  for (const char *first : {"2000", "5500", "6200"}) { // at full speed, in the ramp, in the pause
+    for (const char *rotation : {"driven", "towed"}) {
+      const Scratch stayed, left;
+      const Variables variables = {
+          {"words", std::string("from 0 to 0.5 speed 1 ramp 0.1 pause 0.05 passes 2 rotation ") + rotation},
+          {"excitation", "amplitude 50 frequency 20 travel travel"},
+          {"row", "1"},
+          {"first", first},
+          {"steps", "3000"}};
+      well(run("travel", stayed, variables));
+      well(run("travel.resume", left, with(variables, {{"start", (stayed / "first.restart").string()}})));
+      const std::string all = read_text(stayed / "balls.txt"), rest = read_text(left / "balls.txt");
+      const std::string from = "ITEM: TIMESTEP\n" + std::to_string(std::stoi(first) + 10) + "\n";
+      ASSERT_NE(rest.find(from), std::string::npos);
+      EXPECT_EQ(all.substr(all.find(from)), rest.substr(rest.find(from))) << first << rotation;
+      const Row one = read_rows(stayed / "travel.txt").back(), two = read_rows(left / "travel.txt").back();
+      EXPECT_EQ(one.work, two.work);
+      EXPECT_EQ(one.torque_work, two.torque_work);
+      EXPECT_EQ(one.traction, two.traction);
+      const Scratch ranks; // two ranks continue, too
+      well(run_deck(test_deck(deck("travel.resume")),
+                    with(with(variables, {{"start", (stayed / "first.restart").string()}}),
+                         {{"stepping", std::get<1>(GetParam())}}),
+                    ranks.path(), 2));
+      EXPECT_LT(distance(read_dump(ranks / "balls.txt"), read_dump(left / "balls.txt")), 1e-9);
+      const Outcome other = run("travel.resume", left,
+                                with({{"words", "from 0 to 0.8 speed 1"}},
+                                     with(variables, {{"start", (stayed / "first.restart").string()}})));
+      EXPECT_TRUE(
+          fails_with(other, {"fix drum/travel: way driven is '", "allowed: those of the run before"}));
+    }
+  }
+}
+
+TEST_P(TravellingDrum, KeepsItsProgrammeWithAnotherTimeStep) {
+  const Scratch folder;
+  well(run("travel", folder,
+           {{"words", "from 0 to 0.5 speed 1 ramp 0.1 rotation driven"},
+            {"first", "350"},
+            {"then", "0.25"},
+            {"steps", "20000"}}));
+  const Programme programme{0.5, 1, 0.1, 0};
+  for (const Frame &frame : read_dump(folder / "balls.txt")) {
+    const double steps = static_cast<double>(frame.step);
+    const double t = std::min(steps, 350.0) * 1e-4 + std::max(0.0, steps - 350) * 0.25e-4;
+    const Ball &ball = frame.balls.begin()->second;
+    EXPECT_NEAR(ball.x[0], programme.way(t), 1e-12) << frame.step;
+    EXPECT_NEAR(ball.v[0], programme.velocity(t), 1e-10) << frame.step;
+    EXPECT_NEAR(ball.omega[1], programme.velocity(t) / radius, 1e-9) << frame.step;
+  }
+}
+
+TEST_P(TravellingDrum, IsTheSameOnTwoRanks) {
+  const Variables variables = {{"words", "from 0 to 0.9 speed 1 ramp 0.1 passes 2 rotation towed"},
+                               {"row", "1"},
+                               {"stepping", std::get<1>(GetParam())},
+                               {"steps", "500"}};
+  const Scratch one, two;
+  well(run_deck(test_deck(deck("travel")), variables, one.path()));
+  well(run_deck(test_deck(deck("travel")), variables, two.path(), 2));
+  EXPECT_LT(distance(read_dump(one / "balls.txt"), read_dump(two / "balls.txt")), 1e-9);
+  const Row a = read_rows(one / "travel.txt").back(), b = read_rows(two / "travel.txt").back();
+  EXPECT_NEAR(a.work, b.work, 1e-9 * std::fabs(a.work));
+  EXPECT_NEAR(a.traction, b.traction, 1e-6 * mass * g);
+}
+
+TEST_P(TravellingDrum, SlidesUntilItRollsAsTheClosedFormOfASlidingBall) {
+  struct Kind {
+    std::string words;
+    double inertia;
+  };
+  for (const Kind &kind : {Kind{"", 0.4 * mass * radius * radius}, Kind{" inertia 0.35", 0.35}}) {
+    const Scratch folder;
+    well(run(
+        "travel", folder,
+        {{"words", "from 0 to 1 speed 1 rotation towed" + kind.words}, {"steps", "9000"}, {"every", "1"}}));
+    constexpr double mu = 0.3, lever = radius - overlap / 2; // of the contact force
+    const double gain = mu * mass * g * lever / kind.inertia, rolls = 1 / lever / gain;
+    double mean = 0;
+    int count = 0;
+    for (const Row &row : read_rows(folder / "travel.txt")) {
+      // The spring of friction is stretched at first, and gives a little spin less: mu N over its stiffness.
+      if (row.time > 0.1 * rolls && row.time < 0.98 * rolls) {
+        EXPECT_NEAR(row.spin / (gain * row.time), 1, second() ? 1e-4 : 5e-3) << row.time;
+        EXPECT_NEAR(row.traction / (mu * mass * g), 1, 1e-6) << row.time;
+      }
+      if (row.time > 0.5) { // it rolls, and no longer swings on the spring of friction
+        mean += row.spin;
+        ++count;
+      }
+      EXPECT_NEAR(row.energy() + row.heat - row.work,
+                  0.5 * mass + 0.5 * k * overlap * overlap + mass * g * (radius - overlap), 1e-2);
+    }
+    EXPECT_NEAR(mean / count * lever, 1, 1e-4);
+  }
+}
+
+TEST_P(TravellingDrum, IsSlowedByRollingResistanceWithTheHeatOfItsTraction) {
+  const Scratch folder;
+  well(run("travel", folder,
+           {{"words", "from 0 to 1 speed 1 ramp 0.1 rotation towed"},
+            {"rolling", "epsd2"},
+            {"mu_r", "0.05"},
+            {"mu", "0.5"},
+            {"steps", "11000"}}));
+  const std::vector<Row> rows = read_rows(folder / "travel.txt");
+  const auto at = [&](double time) {
+    return *std::find_if(rows.begin(), rows.end(), [&](const Row &row) { return row.time > time - 1e-6; });
+  };
+  const Row begin = at(0.4), end = at(0.9);
+  const double traction = (end.work - begin.work) / (end.place - begin.place);
+  const double heat = end.heat - begin.heat + end.energy() - begin.energy();
+  EXPECT_NEAR(heat / (end.work - begin.work), 1, 1e-3);
+  // epsd2 resists with a torque of at most mu_r N r, r the radius of a ball on a flat wall; the traction
+  // gives it with the lever of the contact.
+  EXPECT_NEAR(traction, 0.05 * mass * g * radius / (radius - overlap / 2), 1e-2 * 0.05 * mass * g);
+}
+
+TEST_P(TravellingDrum, BalancesItsEnergyOverARowOfBalls) {
+  for (const char *rotation : {"none", "driven", "towed", "towed inertia 0.35"}) {
+    std::vector<double> steps, errors;
+    for (const double dt : {2e-4, 1e-4, 0.5e-4}) {
+      const Scratch folder;
+      well(run("travel", folder,
+               {{"words", std::string("from 0 to 0.5 speed 1 ramp 0.1 passes 2 rotation ") + rotation},
+                {"row", "1"},
+                {"dt", number(dt)},
+                {"steps", std::to_string(std::lround(1.2 / dt))},
+                {"every", std::to_string(std::lround(2e-3 / dt))}}));
+      double worst = 0, most = 0;
+      const std::vector<Row> rows = read_rows(folder / "travel.txt");
+      for (const Row &row : rows) {
+        const double balance = row.energy() + row.heat - row.work - row.torque_work;
+        worst = std::max(
+            worst, std::fabs(balance - mass * g * (radius + 0.05 - overlap) - 0.5 * k * overlap * overlap));
+        most = std::max(most, std::fabs(row.work) + std::fabs(row.torque_work));
+      }
+      steps.push_back(1 / dt);
+      errors.push_back(worst / most);
+    }
+    EXPECT_LT(errors[1], 1e-3) << rotation;
+    if (second()) {
+      EXPECT_LT(fitted_order(steps, errors), -1.7)
+          << rotation << ' ' << errors[0] << ' ' << errors[1] << ' ' << errors[2];
+    }
+  }
+}
+
+TEST_P(TravellingDrum, VibratesWithTheShareOfItsSpeed) {
+  const Scratch folder;
+  well(run("travel", folder,
+           {{"words", "from 0 to 0.5 speed 1 ramp 0.1 pause 0.05 passes 2"},
+            {"excitation", "amplitude 50 frequency 20 phase 0.3 travel travel"},
+            {"steps", "13000"}}));
+  double most = 0;
+  for (const Row &row : read_rows(folder / "travel.txt")) {
+    EXPECT_NEAR(row.Fe, 50 * std::fabs(row.velocity) * std::sin(2 * pi * 20 * row.time + 0.3), 1e-8)
+        << row.time;
+    most = std::max(most, std::fabs(row.Fe));
+  }
+  EXPECT_GT(most, 49.9);
+}
+
+TEST(TravellingDrumInBothEngines, IsTheSame) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  for (const char *rotation : {"none", "driven", "towed"}) {
+    const Variables variables = {
+        {"words", std::string("from 0 to 0.5 speed 2 ramp 0.01 passes 2 rotation ") + rotation},
+        {"row", "1"},
+        {"rolling", "epsd2"},
+        {"steps", "500"}};
+    const Scratch one, two;
+    well(run_deck(test_deck("travel.in"), variables, one.path()));
+    well(run_deck(test_deck("travel.lammps"), variables, two.path()));
+    EXPECT_LT(distance(read_dump(one / "balls.txt"), read_dump(two / "balls.txt")), 1e-9) << rotation;
+    const Row a = read_rows(one / "travel.txt").back(), b = read_rows(two / "travel.txt").back();
+    EXPECT_NEAR(a.work, b.work, 1e-9 * std::fabs(a.work)) << rotation;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, TravellingDrum, engines_and_steppings(), engine_and_stepping);
+
+} // namespace
+} // namespace drumlin::test
