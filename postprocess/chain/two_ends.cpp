@@ -489,10 +489,9 @@ private:
 
 } // namespace
 
-TwoEndsMatrix TwoEndsSolver::monodromy(TwoEndsMotion motion, int cycles) const {
+TwoEndsMatrix TwoEndsSolver::monodromy(TwoEndsMotion &motion) const {
   Differences differences(machine_);
-  for (int cycle = 0; cycle < cycles; ++cycle)
-    finish_cycle(motion, &differences);
+  finish_cycle(motion, &differences);
   return differences.matrix();
 }
 
@@ -627,34 +626,58 @@ private:
   DirectResult result_;
 };
 
-constexpr std::size_t longest_orbit = 8; // cycles
+constexpr std::size_t longest_orbit = 8, measured_cycles = 100;
 
 /// \param motions at the starts of the last cycles and at the end
 TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMotion> &motions) {
   const TwoEnds &machine = solver.machine();
   const ChainParameters &p = machine.chain;
   const double amplitude = std::max(p.Fw / (p.m2 * p.omega * p.omega), 1e-300);
-  const Vector4d turn =
-      (masses(machine) / p.m2).cwiseSqrt(); // tilts as displacements at the radius of gyration
+  // Tilts count as displacements at the radius of gyration, velocities by the frequency.
+  TwoEndsState scale;
+  scale << (masses(machine) / p.m2).cwiseSqrt(), (masses(machine) / p.m2).cwiseSqrt() / p.omega;
   TwoEndsOrbit orbit;
-  for (std::size_t cycles = 1; cycles < motions.size() && orbit.cycles == 0; ++cycles) {
-    const TwoEndsState apart = motions.back().state - motions[motions.size() - 1 - cycles].state;
-    const double size = std::max(apart.head<4>().cwiseProduct(turn).lpNorm<Eigen::Infinity>(),
-                                 apart.tail<4>().cwiseProduct(turn).lpNorm<Eigen::Infinity>() / p.omega);
-    if (size <= 1e-6 * amplitude) orbit.cycles = static_cast<int>(cycles);
+  const std::size_t last = motions.size() - 1;
+  for (std::size_t cycles = 1; cycles <= std::min(last, longest_orbit) && orbit.cycles == 0; ++cycles) {
+    const TwoEndsState apart = motions[last].state - motions[last - cycles].state;
+    if (apart.cwiseProduct(scale).lpNorm<Eigen::Infinity>() <= 1e-6 * amplitude)
+      orbit.cycles = static_cast<int>(cycles);
   }
-  if (orbit.cycles == 0) return orbit;
-  const auto largest = [](const auto &matrix) { return matrix.eigenvalues().cwiseAbs().maxCoeff(); };
-  const TwoEndsMatrix multiply =
-      solver.monodromy(motions[motions.size() - 1 - static_cast<std::size_t>(orbit.cycles)], orbit.cycles);
-  orbit.largest = largest(multiply);
-  const auto part = [&multiply](int rows, int columns) {
-    Matrix4d block;
-    block << multiply.block<2, 2>(rows, columns), multiply.block<2, 2>(rows, columns + 4),
-        multiply.block<2, 2>(rows + 4, columns), multiply.block<2, 2>(rows + 4, columns + 4);
-    return block;
+  const std::size_t count = orbit.cycles > 0 ? static_cast<std::size_t>(orbit.cycles) : last;
+  if (count == 0) return orbit;
+  // The products of bounce and of tilt are kept near one, and their sizes as logarithms.
+  constexpr std::array<int, 8> order = {drum,      frame,      4 + drum,      4 + frame,
+                                        drum_tilt, frame_tilt, 4 + drum_tilt, 4 + frame_tilt};
+  TwoEndsMatrix all = TwoEndsMatrix::Identity();
+  Matrix4d tilt = Matrix4d::Identity();
+  double size = 0.0, tilt_size = 0.0;
+  bool coupled = false;
+  const auto shorten = [](auto &matrix, double &logarithm) {
+    const double norm = matrix.norm();
+    if (!(norm > 0.0)) return;
+    matrix /= norm;
+    logarithm += std::log(norm);
   };
-  if (part(0, 2).isZero(0.0) && part(2, 0).isZero(0.0)) orbit.of_tilt = largest(part(2, 2));
+  TwoEndsMotion motion = motions[last - count];
+  for (std::size_t cycle = 0; cycle < count; ++cycle) {
+    const TwoEndsMatrix plain = solver.monodromy(motion);
+    TwoEndsMatrix step;
+    for (int i = 0; i < 8; ++i)
+      for (int j = 0; j < 8; ++j)
+        step(i, j) = plain(order[i], order[j]) * scale[order[i]] / scale[order[j]];
+    coupled =
+        coupled || !step.topRightCorner<4, 4>().isZero(1e-9) || !step.bottomLeftCorner<4, 4>().isZero(1e-9);
+    all = (step * all).eval();
+    tilt = (step.bottomRightCorner<4, 4>() * tilt).eval();
+    shorten(all, size);
+    shorten(tilt, tilt_size);
+  }
+  const auto grown = [&orbit, count](const auto &matrix, double logarithm) {
+    if (orbit.cycles == 0) return std::exp(logarithm / static_cast<double>(count));
+    return std::exp(logarithm) * matrix.eigenvalues().cwiseAbs().maxCoeff();
+  };
+  orbit.largest = grown(all, size);
+  if (!coupled) orbit.of_tilt = grown(tilt, tilt_size);
   return orbit;
 }
 
@@ -700,7 +723,7 @@ TwoEndsResult solve_two_ends(const TwoEnds &machine, const DirectOptions &option
     solver.finish_cycle(motion, &recorder);
     if (cycle < whole) {
       recorder.end_cycle();
-      if (motions.size() > longest_orbit) motions.erase(motions.begin());
+      if (motions.size() > measured_cycles) motions.erase(motions.begin());
       motions.push_back(motion);
     }
     if (progress) progress(std::min(1.0, static_cast<double>(cycle + 1) / options.cycles));

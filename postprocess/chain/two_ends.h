@@ -155,8 +155,8 @@ public:
   /// Continues the motion to the end of the cycle. Throws std::runtime_error if it has more than 100,000
   /// changes of contacts in it.
   void finish_cycle(TwoEndsMotion &motion, TwoEndsObserver *observer = nullptr) const;
-  /// The matrix that maps small differences of two motions through `cycles` cycles.
-  TwoEndsMatrix monodromy(TwoEndsMotion motion, int cycles) const;
+  /// The matrix that maps small differences of two motions through the next cycle, which the motion goes.
+  TwoEndsMatrix monodromy(TwoEndsMotion &motion) const;
 
 private:
   struct Exit {
@@ -173,11 +173,13 @@ private:
   mutable std::map<std::uint32_t, ContactSet> sets_; ///< made when they are met
 };
 
-/// Whether the last cycles repeat, and how small differences grow from one repetition to the next.
+/// Whether the last cycles repeat, and how small differences of two motions grow.
 struct TwoEndsOrbit {
   int cycles = 0; ///< after which the motion repeats to 1e-6 of its amplitude, at most 8; 0: it does not
-  double largest = 0.0;  ///< modulus of the largest Floquet multiplier
-  double of_tilt = -1.0; ///< the largest of tilting alone; negative where it is coupled with bounce
+  /// Modulus of the largest Floquet multiplier; of a motion that does not repeat the growth per cycle, mean
+  /// of up to the last 100.
+  double largest = 0.0;
+  double of_tilt = -1.0; ///< the same of tilting alone; negative where it is coupled with bounce
 };
 
 struct TwoEndsResult : DirectResult {

@@ -301,12 +301,13 @@ void run(const Arguments &arguments, const std::string &command) {
              arguments.chain.chain_case, arguments.chain.transition, result.cost.steps, task.parameters.Fw,
              of_moment);
   if (!task.ends) return;
+  const std::string of_tilt = orbit.of_tilt < 0.0 ? "" : fmt::format(", of tilting {:.4g}", orbit.of_tilt);
   if (orbit.cycles == 0)
-    fmt::print("The motion does not repeat within 8 cycles.\n");
+    fmt::print("The motion does not repeat within 8 cycles; small differences grow by {:.4g} per cycle{}.\n",
+               orbit.largest, of_tilt);
   else
     fmt::print("The motion repeats after {} cycle{}; largest multiplier {:.4g}{}: {}.\n", orbit.cycles,
-               orbit.cycles == 1 ? "" : "s", orbit.largest,
-               orbit.of_tilt < 0.0 ? "" : fmt::format(", of tilting {:.4g}", orbit.of_tilt),
+               orbit.cycles == 1 ? "" : "s", orbit.largest, of_tilt,
                orbit.largest < 1.0 ? "stable" : "not stable");
 }
 

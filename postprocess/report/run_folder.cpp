@@ -155,6 +155,11 @@ void count_cycles(Run &run) {
 }
 
 void read_chain_parameters(Run &run) {
+  if (run.history.has(ColumnGroup::ends)) {
+    run.missing.emplace_back("not judged: the drum tilts, which neither the reference values nor the "
+                             "reference solution do.");
+    return;
+  }
   if (!take_chain(run, run)) return;
   run.kind = RunKind::chain;
   run.case_name = run.text("case", "");

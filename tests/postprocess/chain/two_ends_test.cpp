@@ -451,7 +451,8 @@ TEST(TwoEnds, TheMonodromyMatrixIsThatOfSmallDifferences) {
     TwoEndsMotion motion = solver.start();
     for (int cycle = 0; cycle < 20; ++cycle)
       solver.finish_cycle(motion);
-    const TwoEndsMatrix matrix = solver.monodromy(motion, 1);
+    TwoEndsMotion reference = motion;
+    const TwoEndsMatrix matrix = solver.monodromy(reference);
     for (int i = 0; i < 8; ++i) {
       const double step = 1e-8 * (i < 4 ? 1e-3 : 0.2);
       std::array<TwoEndsState, 2> ends;
@@ -465,6 +466,40 @@ TEST(TwoEnds, TheMonodromyMatrixIsThatOfSmallDifferences) {
       EXPECT_LT((slope - matrix.col(i)).norm(), 1e-4 * (1.0 + matrix.col(i).norm())) << i;
     }
   }
+}
+
+// Equal halves on equal bonds in partial uplift, the same in each cycle as long as the drum does not tilt:
+// the multiplier of tilting is that by which a small tilt grows in each cycle.
+TEST(TwoEnds, TheMultiplierOfTiltingIsTheGrowthOfASmallTilt) {
+  ChainParameters soil;
+  soil.k = 74e6;
+  soil.D = 0.23;
+  ChainParameters chain = axas(soil).chain;
+  chain.Fw *= std::pow(22.0 / 29.0, 2);
+  chain.omega *= 22.0 / 29.0;
+  TwoEnds machine = equal_halves(chain, 2);
+  machine.drum_inertia = 2900.0;
+  const TwoEndsResult steady = solve_two_ends(machine, cycles(400, 4));
+  EXPECT_EQ(steady.orbit.cycles, 1);
+  EXPECT_GT(steady.orbit.of_tilt, 1.2);
+  EXPECT_EQ(largest(steady.history.theta_drum), 0.0);
+
+  const TwoEndsSolver solver(machine);
+  TwoEndsMotion motion = solver.start();
+  for (int cycle = 0; cycle < 400; ++cycle)
+    solver.finish_cycle(motion);
+  motion.state[2] = 1e-11;
+  double growth = 0.0;
+  for (int cycle = 0; cycle < 30; ++cycle) {
+    const double before = std::fabs(motion.state[2]);
+    solver.finish_cycle(motion);
+    growth = std::fabs(motion.state[2]) / before;
+  }
+  EXPECT_NEAR(growth, steady.orbit.of_tilt, 1e-4);
+  // In the end the drum tilts by far more.
+  for (int cycle = 0; cycle < 300; ++cycle)
+    solver.finish_cycle(motion);
+  EXPECT_GT(std::fabs(motion.state[2]), 1e-4);
 }
 
 // ---- cost ----
