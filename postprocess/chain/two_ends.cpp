@@ -64,26 +64,20 @@ Vector4d weight(const TwoEnds &machine) {
 
 bool every(std::size_t /*link*/) { return true; }
 
-/// Positions where the springs carry the forces; forces that no spring can carry are left over.
-Vector4d at_rest(const Matrix4d &stiffness, const Vector4d &forces) {
-  // Coordinates in which each spring's own stiffness is one, so that a soft one beside a stiff one counts.
-  Vector4d scale;
-  for (int i = 0; i < 4; ++i)
-    scale[i] = stiffness(i, i) > 0.0 ? 1.0 / std::sqrt(stiffness(i, i)) : 1.0;
-  const Matrix4d scaled = scale.asDiagonal() * stiffness * scale.asDiagonal();
-  const Vector4d force = scale.cwiseProduct(forces);
-  const auto solved = [](const auto &matrix, const auto &right) {
-    Eigen::CompleteOrthogonalDecomposition<std::decay_t<decltype(matrix)>> decomposition;
-    decomposition.setThreshold(1e-12);
-    decomposition.compute(matrix);
-    return decomposition.solve(right).eval();
-  };
-  Vector4d rest = Vector4d::Zero();
-  if (scaled.topRightCorner<2, 2>().isZero(0.0)) // bounce alone: no moment acts
-    rest.head<2>() = solved(Eigen::Matrix2d(scaled.topLeftCorner<2, 2>()), Eigen::Vector2d(force.head<2>()));
-  else
-    rest = solved(scaled, force);
-  return scale.cwiseProduct(rest);
+/// Place and tilt at which springs carry a force in the middle; of springs that cannot carry its moment, the
+/// place alone.
+Eigen::Vector2d carrying(const Moments &k, double force) {
+  if (k.all <= 0.0) return {0.0, 0.0};
+  const double product = k.all * k.second, determinant = product - k.first * k.first;
+  if (k.first == 0.0 || determinant <= 1e-13 * product) return {force / k.all, 0.0};
+  return {k.second * force / determinant, -k.first * force / determinant};
+}
+
+/// Positions at which the springs carry the weights; what they cannot carry is left over.
+Vector4d at_rest(const Moments &contacts, const Moments &bonds, const Vector4d &weight) {
+  const Eigen::Vector2d drums = carrying(contacts, weight[drum] + weight[frame]);
+  const Eigen::Vector2d frames = drums + carrying(bonds, weight[frame]);
+  return {drums[0], frames[0], drums[1], frames[1]};
 }
 
 double norm_of(const Matrix4d &matrix, const Vector4d &mass) {
@@ -187,7 +181,7 @@ std::vector<std::string> assumed_ends(const Roller &roller) {
 }
 
 std::string TwoEnds::invalid() const {
-  if (const std::string fault = chain.invalid(); !fault.empty()) return fault;
+  if (std::string fault = chain.invalid(); !fault.empty()) return fault;
   const auto count = static_cast<double>(contacts.size());
   if (count < 1 || count > most_contacts)
     return refusal("contacts", count, fmt::format("a whole number from 1 to {}", most_contacts));
@@ -200,13 +194,16 @@ std::string TwoEnds::invalid() const {
   if (left->y != right->y ? left->y >= 0.0 || right->y <= 0.0 : left->y != 0.0)
     return refusal("contacts", fmt::format("at {:g} to {:g} m", left->y, right->y),
                    "on both sides of the drum's middle, or all in it: else it has nothing to rest on");
-  if (Moments(bonds, &AxleLink::k, every).all <= 0.0)
-    return refusal("bonds", "without stiffness", "a stiffness above 0 [N/m], or g = 0");
-  const Matrix4d stiffness =
-      matrix_of(Moments(contacts, &AxleLink::k, every), Moments(bonds, &AxleLink::k, every));
-  const Vector4d residual = weight(*this) - stiffness * at_rest(stiffness, weight(*this));
-  if (!(residual.norm() <= 1e-9 * weight(*this).norm()))
-    return refusal("bonds", "where the frame does not rest on them", "bonds on both sides of the middle");
+  const Moments k(contacts, &AxleLink::k, every), k_bonds(bonds, &AxleLink::k, every);
+  if (k_bonds.all <= 0.0) return refusal("bonds", "without stiffness", "a stiffness above 0 [N/m], or g = 0");
+  const auto carries = [](const Moments &springs) { // the moment of a weight in the middle
+    return springs.first == 0.0 || springs.all * springs.second - springs.first * springs.first >
+                                       1e-13 * springs.all * springs.second;
+  };
+  if (!carries(k))
+    return refusal("contacts", "almost a single one beside the middle", "stiffness on both sides of it");
+  if (!carries(k_bonds))
+    return refusal("bonds", "almost a single one beside the middle", "stiffness on both sides of it");
   return {};
 }
 
@@ -216,12 +213,13 @@ ContactSet::ContactSet(const TwoEnds &machine, std::uint32_t acting) : omega_(ma
   const auto acts = [acting](std::size_t contact) { return ((acting >> contact) & 1U) != 0; };
   const Vector4d mass = masses(machine);
   const Moments k(machine.contacts, &AxleLink::k, acts), c(machine.contacts, &AxleLink::c, acts);
-  const Matrix4d stiffness = matrix_of(k, Moments(machine.bonds, &AxleLink::k, every));
+  const Moments k_bonds(machine.bonds, &AxleLink::k, every);
+  const Matrix4d stiffness = matrix_of(k, k_bonds);
   const Matrix4d damping = matrix_of(c, Moments(machine.bonds, &AxleLink::c, every));
   sums_ = {k.all, k.first, c.all, c.first};
   const double C = norm_of(damping, mass);
   rate_ = std::max(omega_, 0.5 * C + std::sqrt(0.25 * C * C + norm_of(stiffness, mass)));
-  rest_ = at_rest(stiffness, weight(machine));
+  rest_ = at_rest(k, k_bonds, weight(machine));
   // Positions at rest far away would cost the digits that they are to keep.
   const double natural = machine.chain.g / (rate_ * rate_);
   if (!(rest_.head<2>().norm() < 1e6 * natural)) rest_.setZero();
@@ -295,9 +293,8 @@ TwoEndsSolver::TwoEndsSolver(TwoEnds machine) : machine_(std::move(machine)), re
   std::uint32_t pressed = ~0U;
   for (int pass = 0; pass < 2 * most_contacts; ++pass) {
     const auto acts = [&pressed](std::size_t contact) { return ((pressed >> contact) & 1U) != 0; };
-    const Matrix4d stiffness = matrix_of(Moments(machine_.contacts, &AxleLink::k, acts),
-                                         Moments(machine_.bonds, &AxleLink::k, every));
-    rest_.head<4>() = at_rest(stiffness, weight(machine_));
+    rest_.head<4>() = at_rest(Moments(machine_.contacts, &AxleLink::k, acts),
+                              Moments(machine_.bonds, &AxleLink::k, every), weight(machine_));
     std::uint32_t found = 0;
     for (std::size_t j = 0; j < machine_.contacts.size(); ++j)
       if (height(rest_, machine_.contacts[j].y) < 0.0) found |= 1U << j;
@@ -626,7 +623,7 @@ private:
   DirectResult result_;
 };
 
-constexpr std::size_t longest_orbit = 8, measured_cycles = 100;
+constexpr std::size_t longest_orbit = 8, measured_cycles = 100, least_measured = 20;
 
 /// \param motions at the starts of the last cycles and at the end
 TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMotion> &motions) {
@@ -644,13 +641,13 @@ TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMoti
       orbit.cycles = static_cast<int>(cycles);
   }
   const std::size_t count = orbit.cycles > 0 ? static_cast<std::size_t>(orbit.cycles) : last;
-  if (count == 0) return orbit;
+  if (count == 0 || (orbit.cycles == 0 && count < least_measured)) return orbit;
   // The products of bounce and of tilt are kept near one, and their sizes as logarithms.
   constexpr std::array<int, 8> order = {drum,      frame,      4 + drum,      4 + frame,
                                         drum_tilt, frame_tilt, 4 + drum_tilt, 4 + frame_tilt};
   TwoEndsMatrix all = TwoEndsMatrix::Identity();
   Matrix4d tilt = Matrix4d::Identity();
-  double size = 0.0, tilt_size = 0.0;
+  double size = 0.0, tilt_size = 0.0, half_size = 0.0, half_tilt_size = 0.0;
   bool coupled = false;
   const auto shorten = [](auto &matrix, double &logarithm) {
     const double norm = matrix.norm();
@@ -671,13 +668,17 @@ TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMoti
     tilt = (step.bottomRightCorner<4, 4>() * tilt).eval();
     shorten(all, size);
     shorten(tilt, tilt_size);
+    if (cycle + 1 == count / 2) {
+      half_size = size;
+      half_tilt_size = tilt_size;
+    }
   }
-  const auto grown = [&orbit, count](const auto &matrix, double logarithm) {
-    if (orbit.cycles == 0) return std::exp(logarithm / static_cast<double>(count));
-    return std::exp(logarithm) * matrix.eigenvalues().cwiseAbs().maxCoeff();
+  const auto grown = [&orbit, count](const auto &matrix, double logarithm, double half) {
+    if (orbit.cycles > 0) return std::exp(logarithm) * matrix.eigenvalues().cwiseAbs().maxCoeff();
+    return std::exp((logarithm - half) / static_cast<double>(count - count / 2));
   };
-  orbit.largest = grown(all, size);
-  if (!coupled) orbit.of_tilt = grown(tilt, tilt_size);
+  orbit.largest = grown(all, size, half_size);
+  if (!coupled) orbit.of_tilt = grown(tilt, tilt_size, half_tilt_size);
   return orbit;
 }
 

@@ -302,13 +302,17 @@ void run(const Arguments &arguments, const std::string &command) {
              of_moment);
   if (!task.ends) return;
   const std::string of_tilt = orbit.of_tilt < 0.0 ? "" : fmt::format(", of tilting {:.4g}", orbit.of_tilt);
-  if (orbit.cycles == 0)
-    fmt::print("The motion does not repeat within 8 cycles; small differences grow by {:.4g} per cycle{}.\n",
-               orbit.largest, of_tilt);
-  else
+  constexpr double rounding = 1e-6;
+  const char *const judgement = orbit.largest < 1.0 - rounding   ? "stable"
+                                : orbit.largest > 1.0 + rounding ? "not stable"
+                                                                 : "neutral";
+  if (orbit.cycles > 0)
     fmt::print("The motion repeats after {} cycle{}; largest multiplier {:.4g}{}: {}.\n", orbit.cycles,
-               orbit.cycles == 1 ? "" : "s", orbit.largest, of_tilt,
-               orbit.largest < 1.0 ? "stable" : "not stable");
+               orbit.cycles == 1 ? "" : "s", orbit.largest, of_tilt, judgement);
+  else if (orbit.largest > 0.0)
+    fmt::print(
+        "The motion does not repeat within 8 cycles; small differences grow {:.4g} times per cycle{}.\n",
+        orbit.largest, of_tilt);
 }
 
 } // namespace
