@@ -12,9 +12,6 @@ namespace drumlin::post {
 
 namespace {
 
-// A piece is so long that the norm of the matrix times the length is at most this: the series then has no
-// cancellation that costs a digit.
-constexpr double most_reach = 3.5;
 // After this number of time constants a decaying mode is below 1e-16 of its first value.
 constexpr double decayed = 37.0;
 
@@ -175,6 +172,13 @@ bool stays_below(const double *coefficients, std::size_t terms) {
 
 } // namespace
 
+std::size_t terms_of_series(double reach) {
+  std::size_t terms = 6;
+  while (terms < most_terms && reach_of_terms[terms] < reach)
+    ++terms;
+  return terms;
+}
+
 double first_upcrossing(const double *coefficients, std::size_t terms) {
   if (coefficients[0] > 0.0) return 0.0;
   // Most pieces stay well below zero, which the first terms show, with a bound of the others. Eight suffice
@@ -325,14 +329,6 @@ double PhaseDynamics::longest_piece(double since) const {
   return most_reach / (fast_ == 0.0 || since * -fast_ < decayed ? full_rate_ : slow_rate_);
 }
 
-std::size_t PhaseDynamics::terms_for(double length, double rate) const {
-  const double reach = length * rate;
-  std::size_t terms = 6;
-  while (terms < most_terms && reach_of_terms[terms] < reach)
-    ++terms;
-  return terms;
-}
-
 namespace {
 
 template <class Rows>
@@ -353,7 +349,7 @@ void PhaseDynamics::expand(MotionPiece &piece, const ChainState &from, double le
   auto &y = piece.coefficient;
   piece.length = length;
   const bool split = length * full_rate_ > 1.001 * most_reach;
-  piece.terms = terms_for(length, split ? slow_rate_ : full_rate_);
+  piece.terms = terms_of_series(length * (split ? slow_rate_ : full_rate_));
   const double turn = omega_ * length;
   double s = sine;
   double c = cosine;
@@ -430,7 +426,7 @@ ChainState PhaseDynamics::carry(const ChainState &difference, double time) const
       sum[static_cast<Eigen::Index>(i)] = fast_right_[i] * left;
     }
   }
-  const std::size_t terms = terms_for(time, split ? slow_rate_ : full_rate_);
+  const std::size_t terms = terms_of_series(time * (split ? slow_rate_ : full_rate_));
   for (std::size_t n = 0;; ++n) {
     for (std::size_t i = 0; i < 4; ++i)
       sum[static_cast<Eigen::Index>(i)] += term[i];

@@ -29,6 +29,11 @@ enum class ContactPhase { contact, flight, clamped };
 
 /// Upper limit of the number of terms of a power series.
 constexpr std::size_t most_terms = 33;
+/// A piece is so long that the norm of the matrix times the length, its reach, is at most this: the series
+/// then has no cancellation that costs a digit.
+constexpr double most_reach = 3.5;
+/// The number of terms after which those of a series of this reach are below 1e-18 of its sum.
+std::size_t terms_of_series(double reach);
 
 /// The motion over one piece as a polynomial in s = (t - begin) / length, 0 <= s <= end: state(s) = sum of
 /// coefficient[n] s^n.
@@ -65,7 +70,6 @@ public:
 
 private:
   using Rows = std::array<std::array<double, 4>, 4>;
-  std::size_t terms_for(double length, double rate) const;
 
   Rows full_{};                                      // A
   Rows slow_{};                                      // A without its fast mode

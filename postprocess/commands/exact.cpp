@@ -4,6 +4,7 @@
 #include "chain/direct_solver.h"
 #include "chain/driven_way.h"
 #include "chain/parameters.h"
+#include "chain/two_ends.h"
 #include "commands/chain_options.h"
 #include "commands/text_options.h"
 #include "runs/chain_files.h"
@@ -13,13 +14,19 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 namespace drumlin::post {
 
@@ -32,6 +39,7 @@ struct Arguments {
   ChainArguments chain;
   std::optional<std::string> cycles; // 30 where it stands
   std::optional<std::string> way, speed, passes;
+  std::optional<std::string> contacts, tilt;
   std::string samples_per_cycle = "200";
   std::optional<std::string> rtol;
   std::string impact_speed = "0";
@@ -45,9 +53,18 @@ struct Drive {
   int passes = 1;
 };
 
+/// A drum with two ends.
+struct Ends {
+  TwoEnds machine;
+  double width = 0.0;           ///< of the drum [m]
+  std::optional<fs::path> file; ///< of the contacts; none: they are equal
+  std::vector<std::string> assumed;
+};
+
 struct Task {
   ChainParameters parameters;
   std::optional<Drive> drive;
+  std::optional<Ends> ends;
   std::optional<double> me_re; ///< kg m, from which Fw follows; none: Fw is given
   std::optional<GivenRoller> roller;
   DirectOptions options;
@@ -97,6 +114,67 @@ std::optional<Drive> judge_drive(const Arguments &arguments, const ChainParamete
   return drive;
 }
 
+/// Refuses options that do not go with --contacts.
+void judge_with_contacts(const Arguments &arguments, bool file) {
+  const std::string &contacts = *arguments.contacts;
+  if (arguments.way)
+    throw UsageError(refusal("--contacts", contacts, "none with --way: a roller that drives has one"));
+  if (arguments.rtol)
+    throw UsageError(refusal("--rtol", *arguments.rtol, "none with --contacts, solved in closed form"));
+  if (arguments.tilt &&
+      number_option("--impact-speed", arguments.impact_speed, DirectOptions::impact_speed_range) > 0.0)
+    throw UsageError(refusal("--tilt", *arguments.tilt, "none with --impact-speed"));
+  for (const char *name : {"k", "D"})
+    if (const auto given = given_number(arguments.chain, name); given && file)
+      throw UsageError(
+          refusal(given->first, given->second, "none with a file of --contacts, which has k and c of each"));
+}
+
+/// The drum with two ends, if it is asked for.
+std::optional<Ends> judge_ends(const Arguments &arguments, const AskedChain &chain) {
+  if (!arguments.contacts) {
+    if (arguments.tilt) throw UsageError(refusal("--tilt", *arguments.tilt, "a number with --contacts"));
+    return std::nullopt;
+  }
+  const std::string &contacts = *arguments.contacts;
+  const std::string allowed = fmt::format("a whole number from 1 to {}, or a file that can be read, with the "
+                                          "columns {}",
+                                          most_contacts, contact_columns);
+  std::optional<double> count;
+  try {
+    count = number_from_text(contacts);
+  } catch (const std::invalid_argument &) { // a file
+  }
+  judge_with_contacts(arguments, !count);
+  const Roller roller = chain.roller ? chain.roller->machine : Roller();
+  if (chain.roller && !roller.width)
+    throw UsageError(fmt::format("width of '{}' is missing; allowed: the width of the drum, which --contacts "
+                                 "needs",
+                                 shown(chain.roller->file)));
+  Ends ends;
+  ends.width = drum_width(roller);
+  ends.assumed = assumed_ends(roller);
+  ends.machine = two_ends(chain.parameters, roller);
+  const ChainParameters &p = chain.parameters;
+  if (count) {
+    if (!(*count >= 1.0 && *count <= most_contacts && *count == std::floor(*count)))
+      throw UsageError(refusal("--contacts", contacts, allowed));
+    ends.machine.contacts = equal_contacts(static_cast<int>(*count), ends.width, p.k, p.damping());
+  } else {
+    ends.file = contacts;
+    if (std::error_code ignored; contacts.empty() || !fs::is_regular_file(*ends.file, ignored))
+      throw UsageError(refusal("--contacts", contacts, allowed));
+    try {
+      ends.machine.contacts = read_contacts(*ends.file, ends.width);
+    } catch (const std::invalid_argument &error) {
+      throw UsageError(error.what());
+    }
+  }
+  if (arguments.tilt) ends.machine.tilt = number_option("--tilt", *arguments.tilt, {-0.1, 0.1, "rad"});
+  if (const std::string fault = ends.machine.invalid(); !fault.empty()) throw UsageError("--" + fault);
+  return ends;
+}
+
 Task judge(const Arguments &arguments) {
   Task task;
   const AskedChain chain = judged_chain(arguments.chain);
@@ -113,12 +191,15 @@ Task judge(const Arguments &arguments) {
   options.impact_speed =
       number_option("--impact-speed", arguments.impact_speed, DirectOptions::impact_speed_range);
   std::string fault = options.invalid();
-  if (fault.empty()) fault = too_much_work(task.parameters, options);
+  task.ends = judge_ends(arguments, chain);
+  if (fault.empty())
+    fault = task.ends ? too_much_work(task.ends->machine, options) : too_much_work(task.parameters, options);
   if (!fault.empty()) throw UsageError("--" + fault);
-  task.closed_form = !arguments.rtol && closed_form_suffices(task.parameters, options);
+  task.closed_form = task.ends || (!arguments.rtol && closed_form_suffices(task.parameters, options));
   task.out = output_folder_option("--out", arguments.out);
   std::vector<GivenPath> given = files_of(arguments.chain.roller);
   if (arguments.way) given.push_back({"--way", *arguments.way});
+  if (task.ends && task.ends->file) given.push_back({"--contacts", *task.ends->file});
   keep_apart(given, files_in("--out", task.out, {file_names.begin(), file_names.end()}));
   for (const char *name : file_names)
     try {
@@ -137,16 +218,36 @@ std::vector<std::pair<std::string, std::string>> record(const Arguments &argumen
   const std::string solver =
       task.closed_form ? "closed form"
                        : fmt::format("{} {}", direct_solver_name(), cost.bdf ? "Adams and BDF" : "Adams");
-  if (task.drive) { // k, D and c are those of each place
+  const bool of_file = task.ends && task.ends->file;
+  if (task.drive || of_file) { // k, D and c are those of each place
     const auto of_place = [](const auto &value) { return value.first == "k" || value.first == "D"; };
     values.erase(std::remove_if(values.begin(), values.end(), of_place), values.end());
+  }
+  if (task.drive) {
     values.insert(values.end(), {{"way", *arguments.way},
                                  {"way_begin", number_text(task.drive->way.front().s)},
                                  {"way_end", number_text(task.drive->way.back().s)},
                                  {"speed", number_text(task.drive->speed)},
                                  {"passes", fmt::format("{}", task.drive->passes)}});
-  } else {
+  } else if (!of_file) {
     values.emplace_back("c", number_text(p.damping()));
+  }
+  if (task.ends) {
+    const TwoEnds &machine = task.ends->machine;
+    values.insert(values.end(), {{"contacts", *arguments.contacts},
+                                 {"width", number_text(task.ends->width)},
+                                 {"drum_inertia", number_text(machine.drum_inertia)},
+                                 {"frame_inertia", number_text(machine.frame_inertia)},
+                                 {"exciter_place", number_text(machine.exciter)},
+                                 {"sensor_distance", number_text(machine.sensor)},
+                                 {"tilt", number_text(machine.tilt)}});
+    for (std::size_t i = 0; i < machine.bonds.size(); ++i) {
+      const AxleLink &bond = machine.bonds[i];
+      values.emplace_back(fmt::format("bond_{}", i + 1),
+                          fmt::format("y {} m, k {} N/m, c {} N s/m", number_text(bond.y),
+                                      number_text(bond.k), number_text(bond.c)));
+    }
+    values.emplace_back("ends_assumed", fmt::format("{}", fmt::join(task.ends->assumed, " ")));
   }
   values.insert(values.end(), {{"impact_speed", number_text(task.options.impact_speed)},
                                {"cycles", number_text(task.options.cycles)},
@@ -166,12 +267,21 @@ void run(const Arguments &arguments, const std::string &command) {
   if (task.roller)
     for (const std::string &line : task.roller->lines(task.parameters.g))
       fmt::print("{}\n", line);
+  if (task.ends && !task.ends->assumed.empty())
+    fmt::print("Assumed, as of Axas2020: {}.\n", fmt::join(task.ends->assumed, ", "));
   TimedProgress progress;
   const SolverProgress tell = [&](double share) {
     progress.tell("solved to cycle {:.1f} of {:g}", share * task.options.cycles, task.options.cycles);
   };
-  const DirectResult result = task.closed_form ? solve_closed_form(task.parameters, task.options, tell)
-                                               : solve_direct(task.parameters, task.options, tell);
+  TwoEndsOrbit orbit;
+  const DirectResult result = [&]() -> DirectResult {
+    if (!task.ends)
+      return task.closed_form ? solve_closed_form(task.parameters, task.options, tell)
+                              : solve_direct(task.parameters, task.options, tell);
+    TwoEndsResult solved = solve_two_ends(task.ends->machine, task.options, tell);
+    orbit = solved.orbit;
+    return std::move(solved);
+  }();
   try {
     make_output_folder(task.out);
   } catch (const std::runtime_error &error) {
@@ -190,6 +300,19 @@ void run(const Arguments &arguments, const std::string &command) {
              task.out.string(), result.history.size(), result.events.size(), result.cycles.size(),
              arguments.chain.chain_case, arguments.chain.transition, result.cost.steps, task.parameters.Fw,
              of_moment);
+  if (!task.ends) return;
+  const std::string of_tilt = orbit.of_tilt < 0.0 ? "" : fmt::format(", of tilting {:.4g}", orbit.of_tilt);
+  constexpr double rounding = 1e-6;
+  const char *const judgement = orbit.largest < 1.0 - rounding   ? "stable"
+                                : orbit.largest > 1.0 + rounding ? "not stable"
+                                                                 : "neutral";
+  if (orbit.cycles > 0)
+    fmt::print("The motion repeats after {} cycle{}; largest multiplier {:.4g}{}: {}.\n", orbit.cycles,
+               orbit.cycles == 1 ? "" : "s", orbit.largest, of_tilt, judgement);
+  else if (orbit.largest > 0.0)
+    fmt::print(
+        "The motion does not repeat within 8 cycles; small differences grow {:.4g} times per cycle{}.\n",
+        orbit.largest, of_tilt);
 }
 
 } // namespace
@@ -211,6 +334,14 @@ void add_exact_command(CLI::App &app, Session &session) {
   text_option(exact, "--speed", "NUMBER", arguments->speed, "of a roller that drives [m/s]");
   text_option(exact, "--passes", "COUNT", arguments->passes,
               "over the whole way: forth, back and so on (default 1)");
+  text_option(
+      exact, "--contacts", "COUNT|FILE", arguments->contacts,
+      fmt::format("drum and frame tilt, too, on 1 to {} equal contacts along the width of the drum that "
+                  "share k and c, or on those of a table with the columns {}; chain.csv then has tilt "
+                  "and both ends",
+                  most_contacts, contact_columns));
+  text_option(exact, "--tilt", "NUMBER", arguments->tilt,
+              "with --contacts: tilt of drum and frame at the start besides that of equilibrium [rad]");
   text_option(exact, "--samples-per-cycle", "COUNT", arguments->samples_per_cycle,
               "rows of chain.csv per cycle");
   text_option(exact, "--rtol", "NUMBER", arguments->rtol,

@@ -293,7 +293,7 @@ void write_reading_page(const std::filesystem::path &folder, const Record &recor
   CurveTable table("time [s],value [SI]");
   for (const HistoryColumn &column : history_columns) {
     const std::vector<double> &values = record.*column.values;
-    if (column.derivative == time_column || column.group == ColumnGroup::way || values.empty()) continue;
+    if (column.derivative <= time_column || values.empty()) continue; // neither a motion nor a force
     constexpr std::array<std::pair<const char *, const char *>, 3> of_motion = {
         {{"position", "m"}, {"velocity", "m/s"}, {"acceleration", "m/s^2"}}};
     const std::string part = std::string(column.name).substr(2); // x_drum: drum

@@ -160,6 +160,11 @@ void read_chain_parameters(Run &run) {
                              "reference values or the reference solution, which are of a chain that stands.");
     return;
   }
+  if (run.history.has(ColumnGroup::ends)) {
+    run.missing.emplace_back("not judged: the drum tilts, which neither the reference values nor the "
+                             "reference solution do.");
+    return;
+  }
   if (!take_chain(run, run)) return;
   run.kind = RunKind::chain;
   run.case_name = run.text("case", "");

@@ -72,13 +72,11 @@ ChainHistory read_chain(const fs::path &file) {
       return column.group == group && rows.find(column.name);
     });
   };
-  const bool any_of_frame = any_of(ColumnGroup::frame), any_of_way = any_of(ColumnGroup::way);
   std::vector<std::pair<const HistoryColumn *, std::size_t>> found; // with the place in a row
   for (const HistoryColumn &column : history_columns) {
     const std::optional<std::size_t> place = rows.find(column.name);
-    const bool optional = column.group == ColumnGroup::frame ? !any_of_frame
-                          : column.group == ColumnGroup::way ? !any_of_way
-                                                             : column.values == &ChainHistory::F_excitation;
+    const bool optional = column.group == ColumnGroup::motion ? column.values == &ChainHistory::F_excitation
+                                                              : !any_of(column.group);
     if (place)
       found.emplace_back(&column, *place);
     else if (!optional)

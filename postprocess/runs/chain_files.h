@@ -16,8 +16,8 @@
 namespace drumlin::post {
 
 /// Columns of chain.csv that are there all together or not at all: those of every run, of one with a frame,
-/// of a roller that drives.
-enum class ColumnGroup { motion, frame, way };
+/// of a roller that drives, of a drum with two ends.
+enum class ColumnGroup { motion, frame, way, ends };
 
 /// Time series of a roller, one vector for each column of chain.csv, all of one length; those that a file
 /// does not have are empty.
@@ -34,12 +34,23 @@ struct ChainHistory {
   std::vector<double> F_bond;       ///< c23 (v_frame - v_drum) + k23 (x_frame - x_drum) [N]
   std::vector<double> s;            ///< place along the way of a roller that drives [m]
   std::vector<double> pass;         ///< and its pass, counted from 1
+  // Of a drum with two ends; x_drum, F_contact and so on are those of its middle and of all contacts.
+  std::vector<double> theta_drum; ///< tilt about the way of travel, positive if the right end is higher [rad]
+  std::vector<double> omega_drum; ///< its rate [rad/s]
+  std::vector<double> theta_frame; ///< [rad]
+  std::vector<double> omega_frame; ///< [rad/s]
+  std::vector<double> a_left;      ///< of a sensor at the left end of the drum [m/s2]
+  std::vector<double> a_right;     ///< and at the right one [m/s2]
+  std::vector<double> F_left;      ///< of the contacts left of the middle, and half of one in the middle [N]
+  std::vector<double> F_right;     ///< [N]
 
   /// Number of rows.
   std::size_t size() const { return time.size(); }
   /// Whether the columns are there.
   bool has(ColumnGroup group) const {
-    return group == ColumnGroup::motion || (group == ColumnGroup::frame ? !x_frame.empty() : !s.empty());
+    return group == ColumnGroup::motion || (group == ColumnGroup::frame ? !x_frame.empty()
+                                            : group == ColumnGroup::way ? !s.empty()
+                                                                        : !theta_drum.empty());
   }
   bool has_frame() const { return has(ColumnGroup::frame); }
 };
@@ -51,8 +62,9 @@ struct HistoryColumn {
   int derivative; ///< of the position: 0, 1, 2 in m, m/s, m/s2; or one of those below
   ColumnGroup group = ColumnGroup::motion;
 };
-constexpr int force_column = -1, time_column = -2, way_column = -3; ///< N; s; m, or the number of a pass
-constexpr std::array<HistoryColumn, 12> history_columns = {
+/// N; s; m, or the number of a pass; rad, or rad/s
+constexpr int force_column = -1, time_column = -2, way_column = -3, tilt_column = -4;
+constexpr std::array<HistoryColumn, 20> history_columns = {
     {{"time", &ChainHistory::time, time_column},
      {"x_drum", &ChainHistory::x_drum, 0},
      {"v_drum", &ChainHistory::v_drum, 1},
@@ -64,7 +76,15 @@ constexpr std::array<HistoryColumn, 12> history_columns = {
      {"F_excitation", &ChainHistory::F_excitation, force_column},
      {"F_bond", &ChainHistory::F_bond, force_column, ColumnGroup::frame},
      {"s", &ChainHistory::s, way_column, ColumnGroup::way},
-     {"pass", &ChainHistory::pass, way_column, ColumnGroup::way}}};
+     {"pass", &ChainHistory::pass, way_column, ColumnGroup::way},
+     {"theta_drum", &ChainHistory::theta_drum, tilt_column, ColumnGroup::ends},
+     {"omega_drum", &ChainHistory::omega_drum, tilt_column, ColumnGroup::ends},
+     {"theta_frame", &ChainHistory::theta_frame, tilt_column, ColumnGroup::ends},
+     {"omega_frame", &ChainHistory::omega_frame, tilt_column, ColumnGroup::ends},
+     {"a_left", &ChainHistory::a_left, 2, ColumnGroup::ends},
+     {"a_right", &ChainHistory::a_right, 2, ColumnGroup::ends},
+     {"F_left", &ChainHistory::F_left, force_column, ColumnGroup::ends},
+     {"F_right", &ChainHistory::F_right, force_column, ColumnGroup::ends}}};
 
 /// A contact made or broken: one row of events.csv.
 struct ContactEvent {
@@ -98,8 +118,8 @@ struct CycleColumns {
   const std::vector<double> &at(const std::string &name) const { return columns.at(name); }
 };
 
-/// Reads chain.csv. The frame's four columns may be missing (all of them), so may those of the way, and
-/// F_excitation (then zeros).
+/// Reads chain.csv. The frame's four columns may be missing (all of them), so may those of the way, those of
+/// two ends, and F_excitation (then zeros).
 ChainHistory read_chain(const std::filesystem::path &file);
 /// Reads events.csv.
 std::vector<ContactEvent> read_events(const std::filesystem::path &file);

@@ -47,7 +47,19 @@ struct Roller {
   double me_re_tolerance = 0.0;         ///< of m_e r_e
   std::optional<double> bond_tolerance; ///< of k23 and c23
   bool bond_assumed = false;            ///< no bond in the file: the default is taken
-  std::vector<RollerSetting> settings;  ///< at least one, in the order of the file
+  // What tilts about the way of travel. Places count from the middle of the drum, positive to the right.
+  std::optional<double> drum_inertia;  ///< [kg m2]
+  std::optional<double> frame_inertia; ///< [kg m2]
+  double exciter_place = 0.0;          ///< [m]
+  std::optional<double> sensor_place;  ///< of the one on the drum [m]
+  /// Springs and dashpots of the bond: distances of those left and right from the middle [m], and the share
+  /// of k23 or c23 that is left.
+  struct Sides {
+    std::optional<double> left, right;
+    double share_left = 0.5;
+  };
+  Sides springs, dashpots;
+  std::vector<RollerSetting> settings; ///< at least one, in the order of the file
 };
 
 /// A value that follows from a roller file: its name in parameters.csv, and its unit.
@@ -64,6 +76,11 @@ constexpr double pi = 3.14159265358979323846;
 /// The bond of a roller whose file does not have it: that of inputs/rollers/Axas2020.
 constexpr double assumed_frame_frequency = 4.82; // Hz
 constexpr double assumed_frame_damping = 0.151;
+/// The same of a roller whose file does not say how it tilts: radii of gyration, and distance of the bond
+/// from the middle, over the width of the drum.
+constexpr double assumed_drum_gyration = 0.345;
+constexpr double assumed_frame_gyration = 0.401;
+constexpr double assumed_bond_distance = 0.334;
 /// Values that say the same thing twice may differ by this, since data sheets round.
 constexpr double agreement = 0.1;
 
@@ -80,6 +97,7 @@ struct Quantity {
   double largest; ///< in SI units; the value is positive, or zero as well where the lowest is 0
   bool zero_allowed;
   bool of_setting;
+  bool either_side = false; ///< negative values are allowed, too
 };
 
 inline std::vector<Quantity> quantities() {
@@ -89,6 +107,8 @@ inline std::vector<Quantity> quantities() {
   const Units length = {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}};
   const Units frequency = {{"Hz", 1.0}, {"1/min", 1.0 / 60.0}, {"vpm", 1.0 / 60.0}};
   const Units percent = {{"%", 0.01}};
+  const Units stiffness = {{"N/m", 1.0}, {"kN/m", 1e3}, {"MN/m", 1e6}};
+  const Units damping = {{"N s/m", 1.0}, {"kN s/m", 1e3}};
   return {{"operating_mass", mass, 1e6, false, false},
           {"drum_load", load, 1e6, false, false},
           {"linear_load", linear, 1e6, false, false},
@@ -96,8 +116,18 @@ inline std::vector<Quantity> quantities() {
           {"frame_mass", mass, 1e6, false, false},
           {"width", length, 100.0, false, false},
           {"diameter", length, 100.0, false, false},
-          {"bond_stiffness", {{"N/m", 1.0}, {"kN/m", 1e3}, {"MN/m", 1e6}}, 1e12, false, false},
-          {"bond_damping", {{"N s/m", 1.0}, {"kN s/m", 1e3}}, 1e9, true, false},
+          {"bond_stiffness", stiffness, 1e12, false, false},
+          {"bond_damping", damping, 1e9, true, false},
+          {"bond_stiffness_left", stiffness, 1e12, false, false},
+          {"bond_damping_left", damping, 1e9, true, false},
+          {"bond_left", length, 100.0, true, false},
+          {"bond_right", length, 100.0, true, false},
+          {"damper_left", length, 100.0, true, false},
+          {"damper_right", length, 100.0, true, false},
+          {"drum_inertia", {{"kg m2", 1.0}}, 1e9, false, false},
+          {"frame_inertia", {{"kg m2", 1.0}}, 1e9, false, false},
+          {"exciter_place", length, 100.0, true, false, true},
+          {"sensor_place", length, 100.0, true, false, true},
           {"frame_frequency", frequency, 1e3, false, false},
           {"frame_damping", {{"-", 1.0}, {"%", 0.01}}, 100.0, true, false},
           {"drum_mass_tolerance", percent, 0.5, true, false},
@@ -191,7 +221,11 @@ inline void Lines::add(const std::string &text, const std::string &where) {
     fail(name + " in " + where, both, "a number and its unit, " + names_of(known->units));
   const double in_si = value * unit_of->factor;
   constexpr double smallest = 1e-9;
-  if (!(in_si <= known->largest) || !(in_si >= smallest || (known->zero_allowed && in_si == 0.0)))
+  if (known->either_side) {
+    const std::string limit = number_text(known->largest / unit_of->factor);
+    if (!(std::fabs(in_si) <= known->largest))
+      fail(name + " in " + where, both, "a number from -" + limit + " to " + limit + " " + unit);
+  } else if (!(in_si <= known->largest) || !(in_si >= smallest || (known->zero_allowed && in_si == 0.0)))
     fail(name + " in " + where, both,
          (known->zero_allowed ? "0 or a positive number" : "a positive number") + std::string(" up to ") +
              number_text(known->largest / unit_of->factor) + " " + unit);
@@ -345,6 +379,36 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
   roller.k23 = k23.value_or(roller.m3 * omega3 * omega3);
   roller.c23 = c23.value_or(2.0 * zeta3.value_or(assumed_frame_damping) * std::sqrt(roller.k23 * roller.m3));
   roller.bond_assumed = !k23 && !f3;
+
+  // What tilts.
+  roller.drum_inertia = lines.of("drum_inertia");
+  roller.frame_inertia = lines.of("frame_inertia");
+  roller.exciter_place = lines.of("exciter_place").value_or(0.0);
+  roller.sensor_place = lines.of("sensor_place");
+  if (roller.width && std::fabs(roller.exciter_place) > 0.5 * *roller.width)
+    lines.fail("exciter_place", number_text(roller.exciter_place) + " m",
+               "a place within the width of the drum, " + number_text(*roller.width) + " m");
+  if (roller.width && std::fabs(roller.sensor_place.value_or(0.0)) > *roller.width)
+    lines.fail("sensor_place", number_text(*roller.sensor_place) + " m",
+               "a place at most the width of the drum, " + number_text(*roller.width) +
+                   " m, from its middle");
+  const auto sides = [&lines](const std::string &of, const std::string &places, double whole,
+                              const std::string &unit) {
+    Roller::Sides found = {lines.of(places + "_left"), lines.of(places + "_right"), 0.5};
+    const std::string name = "bond_" + of + "_left";
+    if (const std::optional<double> left = lines.of(name)) {
+      if (!(*left <= whole))
+        lines.fail(name, number_text(*left) + " " + unit,
+                   "at most the " + of + " of the whole bond, " + number_text(whole) + " " + unit);
+      if (whole > 0.0) found.share_left = *left / whole;
+    }
+    if (found.left.has_value() != found.right.has_value())
+      lines.missing(places + (found.left ? "_right" : "_left"),
+                    "the distances of both sides from the middle, or none");
+    return found;
+  };
+  roller.springs = sides("stiffness", "bond", roller.k23, "N/m");
+  roller.dashpots = sides("damping", "damper", roller.c23, "N s/m");
   return roller;
 }
 

@@ -74,7 +74,7 @@ PageTable engine_table(const ReportResults &results) {
   std::vector<HistoryColumn> columns; // that the engines compute
   for (const HistoryColumn &column : history_columns)
     if (column.derivative != time_column && column.group != ColumnGroup::way &&
-        column.values != &ChainHistory::F_excitation)
+        column.group != ColumnGroup::ends && column.values != &ChainHistory::F_excitation)
       columns.push_back(column);
   PageTable table("engines", "Largest difference over the largest value",
                   "run | against | engines | case | transition | stepping");

@@ -93,6 +93,42 @@ TEST_F(RollerFile, TakesMassesUnitsToleranceAndSettings) {
   EXPECT_NEAR(read("drum_load 58.86 kN\nframe_mass 2 t\nfrequency 30 Hz\nforce 250 kN\n").m2, 4000.0, 1e-9);
 }
 
+TEST_F(RollerFile, TakesWhatTiltsAboutTheWayOfTravel) {
+  const std::string machine = "drum_mass 4 t\nframe_mass 3 t\nfrequency 30 Hz\nforce 250 kN\n";
+  const Roller plain = read(machine);
+  EXPECT_FALSE(plain.drum_inertia || plain.frame_inertia || plain.sensor_place || plain.springs.left);
+  EXPECT_EQ(plain.springs.share_left, 0.5);
+  EXPECT_EQ(plain.exciter_place, 0.0);
+  const Roller roller =
+      read(machine + "width 2.1 m\ndrum_inertia 2100 kg m2\nframe_inertia 2500 kg m2\nexciter_place -5 cm\n"
+                     "sensor_place 1.1 m\nbond_stiffness 3 MN/m\nbond_stiffness_left 1200 kN/m\n"
+                     "bond_damping 31 kN s/m\nbond_left 670 mm\nbond_right 0.75 m\n"
+                     "bond_damping_left 0 N s/m\ndamper_left 0 m\ndamper_right 0.8 m\n");
+  EXPECT_EQ(roller.drum_inertia, 2100.0);
+  EXPECT_EQ(roller.frame_inertia, 2500.0);
+  EXPECT_DOUBLE_EQ(roller.exciter_place, -0.05);
+  EXPECT_EQ(roller.sensor_place, 1.1);
+  EXPECT_DOUBLE_EQ(*roller.springs.left, 0.67);
+  EXPECT_EQ(roller.springs.right, 0.75);
+  EXPECT_DOUBLE_EQ(roller.springs.share_left, 0.4);
+  EXPECT_EQ(roller.dashpots.left, 0.0);
+  EXPECT_EQ(roller.dashpots.share_left, 0.0);
+  for (const auto &[line, named] :
+       {std::pair("bond_left 0.7 m\n", "bond_right of 'FILE' is missing"),
+        {"damper_right 0.7 m\n", "damper_left of 'FILE' is missing"},
+        {"bond_stiffness 1 MN/m\nbond_stiffness_left 2 MN/m\n",
+         "bond_stiffness_left of 'FILE' is '2e+06 N/m'; allowed: at most the stiffness of the whole bond, "
+         "1e+06"},
+        {"drum_inertia 0 kg m2\n",
+         "drum_inertia in line 5 of 'FILE' is '0 kg m2'; allowed: a positive number"},
+        {"bond_left -0.7 m\n", "bond_left in line 5 of 'FILE' is '-0.7 m'; allowed: 0 or a positive number"},
+        {"width 2 m\nexciter_place 1.1 m\n", "exciter_place of 'FILE' is '1.1 m'; allowed: a place within"},
+        {"width 2 m\nsensor_place -2.1 m\n", "sensor_place of 'FILE' is '-2.1 m'; allowed: a place at most"},
+        {"exciter_place 1e9 m\n",
+         "exciter_place in line 5 of 'FILE' is '1e9 m'; allowed: a number from -100 to 100 m"}})
+    EXPECT_EQ(fault(machine + line).substr(0, std::string(named).size()), named);
+}
+
 TEST_F(RollerFile, RefusesWhatCannotBeRightInOneLine) {
   const std::string machine = "drum_mass 4 t\nframe_mass 3 t\n", setting = "frequency 30 Hz\nforce 250 kN\n";
   EXPECT_EQ(fault(machine + setting), "");

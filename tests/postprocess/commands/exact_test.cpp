@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -245,6 +246,136 @@ TEST_F(ExactCommand, RefusesAWayThatCannotBeDrivenOver) {
   EXPECT_EQ(run("exact --way none.csv --speed 1 --out o").err,
             "ERROR: drumlin exact: --way is 'none.csv'; allowed: a file that can be read, with the columns s "
             "(m),k (N/m),D (-)\n");
+}
+
+// The machine of the roller file on two contacts that carry 3 to 2 in unbroken contact: amplitudes of the
+// left end, the middle and the right end, tilt, and apparent stiffness of each, from complex algebra.
+TEST_F(ExactCommand, ADrumOnUnequalHalvesTilts) {
+  const double b = 2.13 / std::sqrt(12.0), c = 0.4 * std::sqrt(3962.07 * 15e6);
+  std::ofstream(folder_ / "soil.csv")
+      << fmt::format("y (m),k (N/m),c (N s/m)\n{},9e6,{}\n{},6e6,{}\n", -b, 0.6 * c, b, 0.4 * c);
+  const Outcome outcome = run("exact --roller " + roller_file("Axas2020") +
+                              " --contacts soil.csv --cycles 400 --samples-per-cycle 100 --out o");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("The motion repeats after 1 cycle; largest multiplier 0."), std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(outcome.out.find("Assumed"), std::string::npos);
+  EXPECT_EQ(
+      post::read_text(folder_ / "o/chain.csv")
+          .rfind("time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond,theta_drum,"
+                 "omega_drum,theta_frame,omega_frame,a_left,a_right,F_left,F_right\n",
+                 0),
+      0U);
+  const post::ChainHistory h = post::read_chain(folder_ / "o/chain.csv");
+  constexpr double samples = 100.0;
+  const std::size_t first = h.size() - 100;
+  const auto amplitude = [&](const std::vector<double> &values) {
+    std::complex<double> sum = 0.0;
+    for (std::size_t i = first; i < h.size(); ++i)
+      sum += values[i] *
+             std::polar(2.0 / samples, -2.0 * 3.14159265358979323846 * static_cast<double>(i) / samples);
+    return sum;
+  };
+  const double w2 = std::pow(2.0 * 3.14159265358979323846 * 29.0, 2);
+  struct End {
+    std::complex<double> z;
+    double amplitude_mm, stiffness;
+  };
+  for (const auto &[z, amplitude_mm, stiffness] : {End{amplitude(h.a_left) / -w2, 2.1388, 18.29},
+                                                   {amplitude(h.x_drum), 2.0894, 14.97},
+                                                   {amplitude(h.a_right) / -w2, 2.0424, 11.73}}) {
+    EXPECT_NEAR(1e3 * std::abs(z), amplitude_mm, 5e-5);
+    const std::complex<double> force =
+        -amplitude(h.F_excitation) + w2 * (3962.07 * z + 3379.4 * amplitude(h.x_frame));
+    EXPECT_NEAR(1e-6 * (force / z).real(), stiffness, 5e-3);
+  }
+  EXPECT_NEAR(1e3 * std::abs(amplitude(h.theta_drum)), 0.0797, 5e-5);
+  for (std::size_t i = 0; i < h.size(); i += 37)
+    EXPECT_NEAR(h.F_left[i] + h.F_right[i], h.F_contact[i], 1e-9 * 2e5) << i;
+  const std::map<std::string, std::string> record = post::read_parameters(folder_ / "o/parameters.csv");
+  for (const char *of_each : {"k", "D", "c"})
+    EXPECT_EQ(record.count(of_each), 0U);
+  EXPECT_EQ(record.at("contacts"), "soil.csv");
+  EXPECT_EQ(post::number_from_text(record.at("drum_inertia")), 2138.594);
+  EXPECT_EQ(record.at("ends_assumed"), "");
+  ASSERT_EQ(run("report o --out report").status, 0); // compares with no drum that cannot tilt
+  EXPECT_NE(post::read_text(folder_ / "report/index.html").find("not judged: the drum tilts"),
+            std::string::npos);
+}
+
+// Of a machine whose file does not say how it tilts the command says what is assumed.
+TEST_F(ExactCommand, SaysWhatIsAssumedOfADrumThatTilts) {
+  const Outcome outcome = run("exact --roller " + roller_file("CA3500") +
+                              " --setting high --contacts 5 --cycles 2 --tilt 1e-3 --out o");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(
+      outcome.out.find("Assumed, as of Axas2020: drum_inertia, frame_inertia, bond_left, bond_right.\n"),
+      std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(post::read_chain(folder_ / "o/chain.csv").theta_drum.front(), 1e-3);
+  EXPECT_EQ(post::read_parameters(folder_ / "o/parameters.csv").at("ends_assumed"),
+            "drum_inertia frame_inertia bond_left bond_right");
+}
+
+TEST_F(ExactCommand, RefusesContactsThatTheDrumCannotHave) {
+  const std::string head = "y (m),k (N/m),c (N s/m)\n", good = head + "-0.6,1e7,0\n0.6,2e7,1e4\n";
+  const std::string roller = " --roller " + roller_file("Axas2020");
+  const std::string way = (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/chain/way").string();
+  const std::string count = "'; allowed: a whole number from 1 to 32, or a file that can be read, with the "
+                            "columns y (m),k (N/m),c (N s/m)";
+  std::ofstream(folder_ / "narrow") << "drum_mass 4 t\nframe_mass 3 t\nfrequency 30 Hz\nforce 250 kN\n";
+  struct Bad {
+    std::string text, options, line;
+  };
+  for (const auto &[text, options, line] : std::vector<Bad>{
+           {good, "--contacts 0", "--contacts is '0" + count},
+           {good, "--contacts 33", "--contacts is '33" + count},
+           {good, "--contacts 2.5", "--contacts is '2.5" + count},
+           {good, "--contacts nan", "--contacts is 'nan" + count},
+           {good, "--contacts ''", "--contacts is '" + count},
+           {good, "--contacts nothing", "--contacts is 'nothing" + count},
+           {good, "--contacts 2 --rtol 1e-9",
+            "--rtol is '1e-9'; allowed: none with --contacts, solved in closed form"},
+           {good, "--contacts 2 --speed 1 --way " + way,
+            "--contacts is '2'; allowed: none with --way: a roller that drives has one"},
+           {good, "--contacts w.csv --k 1e7",
+            "--k is '1e7'; allowed: none with a file of --contacts, which has k and c of each"},
+           {good, "--tilt 0.01", "--tilt is '0.01'; allowed: a number with --contacts"},
+           {good, "--contacts 2 --tilt 1", "--tilt is '1'; allowed: a number from -0.1 to 0.1 [rad]"},
+           {good, "--contacts 2 --tilt 0.01 --impact-speed 1",
+            "--tilt is '0.01'; allowed: none with --impact-speed"},
+           {good, "--contacts 2 --roller narrow",
+            "width of 'narrow' is missing; allowed: the width of the drum, which --contacts needs"},
+           {good, "--contacts 2 --D 1e6",
+            "--cycles is '30'; allowed: at most 3.13 of this machine and soil, whose fastest motion needs "
+            "6.39e+06 steps per cycle"},
+           {"y,k,c\n0,1,1\n", roller, "header of 'w.csv' is 'y,k,c'; allowed: y (m),k (N/m),c (N s/m)"},
+           {head, roller, "number of rows of 'w.csv' is '0'; allowed: 1 to 32"},
+           {head + "-1.1,1e7,0\n0.6,1e7,0\n", roller,
+            "y in line 2 of 'w.csv' is '-1.1'; allowed: a number from -1.065 to 1.065 [m], within the width "
+            "of "
+            "the drum"},
+           {head + "-1,1e7,0\n1,0,0\n", roller,
+            "k in line 3 of 'w.csv' is '0'; allowed: a number from 1e-06 to 1e+15 [N/m]"},
+           {head + "-1,1e7,-1\n1,1,0\n", roller,
+            "c in line 2 of 'w.csv' is '-1'; allowed: 0, or a number from 1e-09 to 1e+15 [N s/m]"},
+           {head + "-1,x,1\n1,1,0\n", roller,
+            "k in line 2 of 'w.csv' is 'x'; allowed: a number from 1e-06 to 1e+15 [N/m]"},
+           {head + "0.2,1e7,1\n1,1e7,0\n", roller,
+            "--contacts is 'at 0.2 to 1 m'; allowed: on both sides of the drum's middle, or all in it: else "
+            "it "
+            "has nothing to rest on"}}) {
+    std::ofstream(folder_ / "w.csv") << text;
+    const Outcome outcome =
+        run("exact " + options + (options == roller ? " --contacts w.csv" : "") + " --out o");
+    EXPECT_EQ(outcome.status, 2) << line;
+    EXPECT_EQ(outcome.err, "ERROR: drumlin exact: " + line + "\n");
+    EXPECT_FALSE(fs::exists(folder_ / "o"));
+  }
+  fs::create_directory(folder_ / "kept");
+  std::ofstream(folder_ / "kept/chain.csv") << good; // what is read is not replaced
+  EXPECT_EQ(run("exact --contacts kept/chain.csv --cycles 1 --out kept").status, 2);
+  EXPECT_EQ(get(folder_ / "kept/chain.csv"), good);
 }
 
 TEST_F(ExactCommand, SolvesEveryCase) {

@@ -92,6 +92,25 @@ TEST_F(MeterCommand, TakesTheDrumOfARollerFile) {
 }
 
 // A run has noted its frequency, masses and force, which those of the file do not replace.
+// Sensors at the ends of a drum on halves of 9 and 6 MN/m: apparent stiffness from complex algebra.
+TEST_F(MeterCommand, AtOneEndOfADrumThatTiltsShowsTheSoilOfThatEnd) {
+  const double b = 2.13 / std::sqrt(12.0), c = 0.4 * std::sqrt(3962.07 * 15e6);
+  write_files({{folder_ / "soil.csv", "y (m),k (N/m),c (N s/m)\n" +
+                                          csv_line({number_text(-b), "9e6", number_text(0.6 * c)}) +
+                                          csv_line({number_text(b), "6e6", number_text(0.4 * c)})}});
+  const std::string roller = DRUMLIN_SOURCE_DIR "/inputs/rollers/Axas2020";
+  well(run_program({DRUMLIN_TOOLS, "exact", "--roller", roller, "--contacts", "soil.csv", "--cycles", "300",
+                    "--out", "run"},
+                   {}, folder_));
+  for (const auto &[sensor, stiffness] :
+       {std::pair("a_left", 18.29), {"a_drum", 14.97}, {"a_right", 11.73}}) {
+    well(meter({"run", "--column", std::string("a_drum=") + sensor, "--column", "a_frame=a_frame"}));
+    const Table table = read_table(folder_ / "results/meter/meter.csv");
+    EXPECT_NEAR(1e-6 * table.numbers("k_1 [N/m]").back(), stiffness, 5e-3) << sensor;
+    EXPECT_EQ(table.text("mode").back(), "continuous contact");
+  }
+}
+
 TEST_F(MeterCommand, OfARunTakesTheDrumsSizeAlone) {
   write_chain_run(folder_ / "run", "II", Transition::B, 30);
   write_files({{folder_ / "mine", "drum_load 7000 kg\nwidth 2.13 m\ndiameter 1.5 m\nfrequency 29 Hz\n"

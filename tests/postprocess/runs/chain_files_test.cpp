@@ -78,6 +78,25 @@ TEST_F(ChainCsv, HeadersAreThoseThatScriptsUse) {
   EXPECT_EQ(first_line(parameters_text({})), "name,value");
 }
 
+TEST_F(ChainCsv, ColumnsOfBothEndsStandAtTheEndAndComeBackAllTogether) {
+  ChainHistory written = awkward_history();
+  for (const HistoryColumn &column : history_columns)
+    if (column.group == ColumnGroup::ends) written.*column.values = written.x_drum;
+  written.a_left[1] = 3.0;
+  const std::string text = chain_text(written);
+  EXPECT_EQ(text.substr(0, text.find('\n')),
+            "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond,theta_drum,"
+            "omega_drum,theta_frame,omega_frame,a_left,a_right,F_left,F_right");
+  const ChainHistory read = read_chain(put(text));
+  EXPECT_TRUE(read.has(ColumnGroup::ends));
+  EXPECT_EQ(read.a_left, written.a_left);
+  EXPECT_EQ(read.F_right, written.F_right);
+  EXPECT_EQ(error_of([&] {
+              read_chain(put("time,x_drum,v_drum,a_drum,F_contact,a_left\n0,1,2,3,4,5\n"));
+            }).find("theta_drum") != std::string::npos,
+            true);
+}
+
 TEST_F(ChainCsv, EventsAndCyclesComeBack) {
   const std::vector<ContactEvent> events = {{1.0 / 3.0, true, 0.0, 0.5, 2e5, 1, 2},
                                             {0.5, false, 1e-3, -0.2, 0, 17, 4000000000}};

@@ -1,0 +1,742 @@
+#include "chain/two_ends.h"
+
+#include "files/roller.h"
+#include "support/csv.h"
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+
+using Eigen::Matrix4d;
+using Eigen::Vector4d;
+
+// Components of positions and of their velocities.
+enum Component { drum, frame, drum_tilt, frame_tilt };
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+/// Sums of a number over links: itself, times y, times y^2.
+struct Moments {
+  double all = 0.0, first = 0.0, second = 0.0;
+
+  template <class Links, class Counts>
+  Moments(const Links &links, double AxleLink::*value, const Counts &counts) {
+    double size = 0.0;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (!counts(i)) continue;
+      const AxleLink &link = links[i];
+      all += link.*value;
+      first += link.*value * link.y;
+      second += link.*value * link.y * link.y;
+      size += std::fabs(link.*value * link.y);
+    }
+    // Halves that are equal but for rounding do not couple bounce and tilt.
+    if (std::fabs(first) <= 1e-14 * size) first = 0.0;
+  }
+};
+
+/// Stiffness or damping of contacts and bonds.
+Matrix4d matrix_of(const Moments &contacts, const Moments &bonds) {
+  Matrix4d m;
+  m << contacts.all + bonds.all, -bonds.all, contacts.first + bonds.first, -bonds.first,         //
+      -bonds.all, bonds.all, -bonds.first, bonds.first,                                          //
+      contacts.first + bonds.first, -bonds.first, contacts.second + bonds.second, -bonds.second, //
+      -bonds.first, bonds.first, -bonds.second, bonds.second;
+  return m;
+}
+
+Vector4d masses(const TwoEnds &machine) {
+  return {machine.chain.m2, machine.chain.m3, machine.drum_inertia, machine.frame_inertia};
+}
+
+Vector4d weight(const TwoEnds &machine) {
+  return {-machine.chain.m2 * machine.chain.g, -machine.chain.m3 * machine.chain.g, 0.0, 0.0};
+}
+
+bool every(std::size_t /*link*/) { return true; }
+
+/// Place and tilt at which springs carry a force in the middle; of springs that cannot carry its moment, the
+/// place alone.
+Eigen::Vector2d carrying(const Moments &k, double force) {
+  if (k.all <= 0.0) return {0.0, 0.0};
+  const double product = k.all * k.second, determinant = product - k.first * k.first;
+  if (k.first == 0.0 || determinant <= 1e-13 * product) return {force / k.all, 0.0};
+  return {k.second * force / determinant, -k.first * force / determinant};
+}
+
+/// Positions at which the springs carry the weights; what they cannot carry is left over.
+Vector4d at_rest(const Moments &contacts, const Moments &bonds, const Vector4d &weight) {
+  const Eigen::Vector2d drums = carrying(contacts, weight[drum] + weight[frame]);
+  const Eigen::Vector2d frames = drums + carrying(bonds, weight[frame]);
+  return {drums[0], frames[0], drums[1], frames[1]};
+}
+
+double norm_of(const Matrix4d &matrix, const Vector4d &mass) {
+  const Vector4d scale = mass.cwiseSqrt().cwiseInverse();
+  return Matrix4d(scale.asDiagonal() * matrix * scale.asDiagonal()).operatorNorm();
+}
+
+/// z and z' of the drum at y, positive up.
+double height(const TwoEndsState &state, double y) { return state[drum] + y * state[drum_tilt]; }
+double rise(const TwoEndsState &state, double y) { return state[4 + drum] + y * state[4 + drum_tilt]; }
+
+} // namespace
+
+std::vector<AxleLink> equal_contacts(int count, double width, double k, double c) {
+  std::vector<AxleLink> contacts;
+  for (int j = 1; j <= count; ++j) {
+    const double place = j - 0.5 * (count + 1);
+    contacts.push_back(
+        {count == 1 ? 0.0 : place * (width / std::sqrt(double(count) * count - 1.0)), k / count, c / count});
+  }
+  return contacts;
+}
+
+std::vector<AxleLink> read_contacts(const std::filesystem::path &file, double width) {
+  const auto fail = [&file](const std::string &what, const std::string &value, const std::string &allowed) {
+    throw std::invalid_argument(
+        refusal(fmt::format("{} of '{}'", what, shown(file.string())), value, allowed));
+  };
+  const Table table = [&file] {
+    try {
+      return read_table(file);
+    } catch (const std::runtime_error &error) {
+      throw std::invalid_argument(error.what());
+    }
+  }();
+  const std::string header = fmt::format("{}", fmt::join(table.header(), ","));
+  if (header != contact_columns) fail("header", header, contact_columns);
+  if (table.rows() < 1 || table.rows() > most_contacts)
+    fail("number of rows", fmt::format("{}", table.rows()), fmt::format("1 to {}", most_contacts));
+  const Range place = {-0.5 * width, 0.5 * width, "m"};
+  const Range stiffness = {1e-6, 1e15, "N/m"};
+  const Range damping = {1e-9, 1e15, "N s/m", true};
+  std::vector<AxleLink> contacts(table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const auto number = [&](const char *name, std::size_t column, const Range &range,
+                            const std::string &allowed) {
+      const std::string &cell = table.row(row)[column];
+      const auto value = any_number_from_text(cell);
+      if (!value || !range.holds(*value))
+        fail(fmt::format("{} in line {}", name, table.line(row)), cell, allowed);
+      return *value;
+    };
+    contacts[row].y = number("y", 0, place, place.words() + ", within the width of the drum");
+    contacts[row].k = number("k", 1, stiffness, stiffness.words());
+    contacts[row].c = number("c", 2, damping, damping.words());
+  }
+  return contacts;
+}
+
+double drum_width(const Roller &roller) {
+  constexpr double of_axas = 2.13; // m, of a roller of the 12 t class
+  return roller.width.value_or(of_axas);
+}
+
+TwoEnds two_ends(const ChainParameters &chain, const Roller &roller) {
+  const double width = drum_width(roller);
+  const auto inertia = [width](double mass, double gyration) {
+    return mass * (gyration * width) * (gyration * width);
+  };
+  TwoEnds machine;
+  machine.chain = chain;
+  machine.drum_inertia = roller.drum_inertia.value_or(inertia(chain.m2, roller_file::assumed_drum_gyration));
+  machine.frame_inertia =
+      roller.frame_inertia.value_or(inertia(chain.m3, roller_file::assumed_frame_gyration));
+  machine.exciter = roller.exciter_place;
+  machine.sensor = std::fabs(roller.sensor_place.value_or(0.5 * width));
+  const double distance = roller_file::assumed_bond_distance * width;
+  const double left = roller.springs.left.value_or(distance), right = roller.springs.right.value_or(distance);
+  const auto part = [](double whole, double share) {
+    return std::pair(whole * share, whole * (1.0 - share));
+  };
+  const auto k = part(chain.k23, roller.springs.share_left), c = part(chain.c23, roller.dashpots.share_left);
+  machine.bonds = {{-left, k.first, 0.0},
+                   {right, k.second, 0.0},
+                   {-roller.dashpots.left.value_or(left), 0.0, c.first},
+                   {roller.dashpots.right.value_or(right), 0.0, c.second}};
+  return machine;
+}
+
+std::vector<std::string> assumed_ends(const Roller &roller) {
+  std::vector<std::string> names;
+  const auto judge = [&names](bool given, const char *name) {
+    if (!given) names.emplace_back(name);
+  };
+  judge(roller.width.has_value(), "width");
+  judge(roller.drum_inertia.has_value(), "drum_inertia");
+  judge(roller.frame_inertia.has_value(), "frame_inertia");
+  judge(roller.springs.left.has_value(), "bond_left");
+  judge(roller.springs.right.has_value(), "bond_right");
+  return names;
+}
+
+std::string TwoEnds::invalid() const {
+  if (std::string fault = chain.invalid(); !fault.empty()) return fault;
+  const auto count = static_cast<double>(contacts.size());
+  if (count < 1 || count > most_contacts)
+    return refusal("contacts", count, fmt::format("a whole number from 1 to {}", most_contacts));
+  const Range inertia = {1e-9, 1e12, "kg m2"};
+  if (!inertia.holds(drum_inertia)) return refusal("drum_inertia", drum_inertia, inertia.words());
+  if (!inertia.holds(frame_inertia)) return refusal("frame_inertia", frame_inertia, inertia.words());
+  if (chain.g == 0.0) return {};
+  const auto [left, right] = std::minmax_element(
+      contacts.begin(), contacts.end(), [](const AxleLink &a, const AxleLink &b) { return a.y < b.y; });
+  if (left->y != right->y ? left->y >= 0.0 || right->y <= 0.0 : left->y != 0.0)
+    return refusal("contacts", fmt::format("at {:g} to {:g} m", left->y, right->y),
+                   "on both sides of the drum's middle, or all in it: else it has nothing to rest on");
+  const Moments k(contacts, &AxleLink::k, every), k_bonds(bonds, &AxleLink::k, every);
+  if (k_bonds.all <= 0.0) return refusal("bonds", "without stiffness", "a stiffness above 0 [N/m], or g = 0");
+  const auto carries = [](const Moments &springs) { // the moment of a weight in the middle
+    return springs.first == 0.0 || springs.all * springs.second - springs.first * springs.first >
+                                       1e-13 * springs.all * springs.second;
+  };
+  if (!carries(k))
+    return refusal("contacts", "almost a single one beside the middle", "stiffness on both sides of it");
+  if (!carries(k_bonds))
+    return refusal("bonds", "almost a single one beside the middle", "stiffness on both sides of it");
+  return {};
+}
+
+// ---- linear dynamics ----
+
+ContactSet::ContactSet(const TwoEnds &machine, std::uint32_t acting) : omega_(machine.chain.omega) {
+  const auto acts = [acting](std::size_t contact) { return ((acting >> contact) & 1U) != 0; };
+  const Vector4d mass = masses(machine);
+  const Moments k(machine.contacts, &AxleLink::k, acts), c(machine.contacts, &AxleLink::c, acts);
+  const Moments k_bonds(machine.bonds, &AxleLink::k, every);
+  const Matrix4d stiffness = matrix_of(k, k_bonds);
+  const Matrix4d damping = matrix_of(c, Moments(machine.bonds, &AxleLink::c, every));
+  sums_ = {k.all, k.first, c.all, c.first};
+  const double C = norm_of(damping, mass);
+  rate_ = std::max(omega_, 0.5 * C + std::sqrt(0.25 * C * C + norm_of(stiffness, mass)));
+  rest_ = at_rest(k, k_bonds, weight(machine));
+  // Positions at rest far away would cost the digits that they are to keep.
+  const double natural = machine.chain.g / (rate_ * rate_);
+  if (!(rest_.head<2>().norm() < 1e6 * natural)) rest_.setZero();
+  Vector4d left = weight(machine) - stiffness * rest_;
+  for (int i = 0; i < 4; ++i)
+    if (std::fabs(left[i]) <= 1e-14 * weight(machine).norm()) left[i] = 0.0;
+  const Vector4d push = {-machine.chain.Fw, 0.0, -machine.exciter * machine.chain.Fw, 0.0};
+  stiffness_ = mass.cwiseInverse().asDiagonal() * stiffness;
+  damping_ = mass.cwiseInverse().asDiagonal() * damping;
+  gravity_ = left.cwiseQuotient(mass);
+  push_ = push.cwiseQuotient(mass);
+}
+
+TwoEndsState ContactSet::Piece::state(double s) const {
+  Vector4d x = position[terms - 1], v = velocity[terms - 1];
+  for (std::size_t n = terms - 1; n-- > 0;) {
+    x = x * s + position[n];
+    v = v * s + velocity[n];
+  }
+  TwoEndsState state;
+  state << x, v;
+  return state;
+}
+
+void ContactSet::expand(Piece &piece, const TwoEndsState &from, double length, double sine,
+                        double cosine) const {
+  piece.length = length;
+  piece.terms = terms_of_series(length * rate_);
+  const double turn = omega_ * length;
+  double s = sine, c = cosine;
+  piece.position[0] = from.head<4>() - rest_;
+  piece.velocity[0] = from.tail<4>();
+  for (std::size_t n = 0; n + 1 < piece.terms; ++n) {
+    const double share = 1.0 / static_cast<double>(n + 1);
+    const double factor = length * share;
+    piece.position[n + 1] = factor * piece.velocity[n];
+    Vector4d force = s * push_ - stiffness_ * piece.position[n] - damping_ * piece.velocity[n];
+    if (n == 0) force += gravity_;
+    piece.velocity[n + 1] = factor * force;
+    const double next = turn * share * c;
+    c = -turn * share * s;
+    s = next;
+  }
+  piece.position[0] += rest_;
+}
+
+Vector4d ContactSet::acceleration(const TwoEndsState &state, double sine) const {
+  return gravity_ + sine * push_ - stiffness_ * (state.head<4>() - rest_) - damping_ * state.tail<4>();
+}
+
+TwoEndsMatrix ContactSet::carry(const TwoEndsMatrix &differences, double time) const {
+  TwoEndsMatrix rates = TwoEndsMatrix::Zero();
+  rates.topRightCorner<4, 4>().setIdentity();
+  rates.bottomLeftCorner<4, 4>() = -stiffness_;
+  rates.bottomRightCorner<4, 4>() = -damping_;
+  TwoEndsMatrix term = differences, sum = differences;
+  const std::size_t terms = terms_of_series(time * rate_);
+  for (std::size_t n = 1; n < terms; ++n) {
+    term = (time / static_cast<double>(n)) * (rates * term).eval();
+    sum += term;
+  }
+  return sum;
+}
+
+// ---- the motion ----
+
+TwoEndsSolver::TwoEndsSolver(TwoEnds machine) : machine_(std::move(machine)), rest_(TwoEndsState::Zero()) {
+  if (const std::string fault = machine_.invalid(); !fault.empty()) throw std::invalid_argument(fault);
+  if (machine_.chain.g == 0.0) return;
+  // Contacts that the drum does not reach at rest carry nothing.
+  std::uint32_t pressed = ~0U;
+  for (int pass = 0; pass < 2 * most_contacts; ++pass) {
+    const auto acts = [&pressed](std::size_t contact) { return ((pressed >> contact) & 1U) != 0; };
+    rest_.head<4>() = at_rest(Moments(machine_.contacts, &AxleLink::k, acts),
+                              Moments(machine_.bonds, &AxleLink::k, every), weight(machine_));
+    std::uint32_t found = 0;
+    for (std::size_t j = 0; j < machine_.contacts.size(); ++j)
+      if (height(rest_, machine_.contacts[j].y) < 0.0) found |= 1U << j;
+    if (found == pressed) break;
+    pressed = found;
+  }
+}
+
+const ContactSet &TwoEndsSolver::set(std::uint32_t acting) const {
+  return sets_.try_emplace(acting, machine_, acting).first->second;
+}
+
+TwoEndsMotion TwoEndsSolver::start_at(const TwoEndsState &state) const {
+  TwoEndsMotion motion;
+  motion.state = state;
+  for (std::size_t j = 0; j < machine_.contacts.size(); ++j) {
+    const AxleLink &link = machine_.contacts[j];
+    const double z = height(state, link.y), v = rise(state, link.y);
+    if (z < 0.0)
+      motion.contacts[j].phase = machine_.chain.transition == Transition::B && link.k * z + link.c * v > 0.0
+                                     ? ContactPhase::clamped
+                                     : ContactPhase::contact;
+  }
+  return motion;
+}
+
+TwoEndsMotion TwoEndsSolver::start(double impact_speed) const {
+  TwoEndsState state = rest_;
+  if (impact_speed > 0.0) {
+    state.setZero();
+    state[4 + drum] = state[4 + frame] = -impact_speed;
+  } else {
+    state[drum_tilt] += machine_.tilt;
+    state[frame_tilt] += machine_.tilt;
+  }
+  TwoEndsMotion motion = start_at(state);
+  for (std::size_t j = 0; j < machine_.contacts.size();
+       ++j) // touching, and moving or about to be pushed down
+    if (height(state, machine_.contacts[j].y) == 0.0 && (impact_speed > 0.0 || machine_.chain.Fw > 0.0))
+      leave(motion, j, 0);
+  return motion;
+}
+
+double TwoEndsSolver::force(const TwoEndsMotion::Contact &contact, std::size_t index,
+                            const TwoEndsState &state) const {
+  if (contact.phase != ContactPhase::contact) return 0.0;
+  const AxleLink &link = machine_.contacts[index];
+  const double value = -(link.k * height(state, link.y) + link.c * rise(state, link.y));
+  return machine_.chain.transition == Transition::B ? std::max(0.0, value) : value;
+}
+
+// The ways out of a phase: 0 is the boundary d = 0, 1 the boundary F = 0. Each is a function that is positive
+// beyond.
+TwoEndsSolver::Exit TwoEndsSolver::first_exit(const ContactSet::Piece &piece, std::size_t contact,
+                                              const TwoEndsMotion::Contact &now) const {
+  const AxleLink &link = machine_.contacts[contact];
+  const bool by_force = machine_.chain.transition == Transition::B && now.phase != ContactPhase::flight;
+  const bool by_gap = now.phase != ContactPhase::contact || machine_.chain.transition == Transition::A;
+  // Just after an event of this contact its function is zero but for rounding.
+  const bool just_left = piece.begin - now.changed <= 1e-12 * machine_.chain.period();
+  std::array<double, most_terms> values{};
+  Exit first;
+  const auto look = [&](int index, double k, double c) {
+    for (std::size_t n = 0; n < piece.terms; ++n)
+      values[n] = k * (piece.position[n][drum] + link.y * piece.position[n][drum_tilt]) +
+                  c * (piece.velocity[n][drum] + link.y * piece.velocity[n][drum_tilt]);
+    if (just_left && now.boundary == index) values[0] = std::min(0.0, values[0]);
+    const double share = first_upcrossing(values.data(), piece.terms);
+    if (share <= 1.0 && share < first.share) first = {index, share};
+  };
+  if (by_gap) look(0, now.phase == ContactPhase::flight ? -1.0 : 1.0, 0.0);
+  if (by_force) {
+    const double sign = now.phase == ContactPhase::contact ? 1.0 : -1.0;
+    look(1, sign * link.k, sign * link.c);
+  }
+  return first;
+}
+
+ContactChange TwoEndsSolver::leave(TwoEndsMotion &motion, std::size_t contact, int exit) const {
+  const AxleLink &link = machine_.contacts[contact];
+  TwoEndsMotion::Contact &now = motion.contacts[contact];
+  ContactChange change;
+  change.contact = contact;
+  change.from = now.phase;
+  change.time = motion.time;
+  change.overlap_rate = 0.0 - rise(motion.state, link.y);
+  switch (now.phase) {
+  case ContactPhase::flight:
+    change.to = ContactPhase::contact;
+    change.force = link.c * change.overlap_rate + 0.0;
+    change.jump = link.c;
+    break;
+  case ContactPhase::clamped:
+    change.to = exit == 0 ? ContactPhase::flight : ContactPhase::contact;
+    break;
+  case ContactPhase::contact:
+    if (machine_.chain.transition == Transition::A) {
+      change.to = ContactPhase::flight;
+      change.force = link.c * change.overlap_rate + 0.0;
+      change.jump = -link.c;
+    } else if (link.c > 0.0 && height(motion.state, link.y) < 0.0) {
+      change.to = ContactPhase::clamped;
+    } else { // without damping F = 0 and d = 0 are one
+      change.to = ContactPhase::flight;
+      exit = 0;
+    }
+    break;
+  }
+  if (exit != 0) change.overlap = 0.0 - height(motion.state, link.y);
+  now.phase = change.to;
+  now.changed = motion.time;
+  // With damping a make at d = 0 is not at F = 0: no exit function of B's contact is zero there.
+  const bool force_next = machine_.chain.transition == Transition::B && change.to == ContactPhase::contact;
+  now.boundary = exit == 1 ? 1 : !force_next ? 0 : link.c == 0.0 ? 1 : -1;
+  return change;
+}
+
+void TwoEndsSolver::finish_cycle(TwoEndsMotion &motion, TwoEndsObserver *observer) const {
+  constexpr int most_changes = 100'000;
+  const double end = machine_.chain.period();
+  const double nothing = 1e-15 * end;
+  const std::size_t count = machine_.contacts.size();
+  ContactSet::Piece piece;
+  std::array<Exit, most_contacts> exits;
+  int changes = 0;
+  while (end - motion.time > nothing) {
+    std::uint32_t acting = 0;
+    for (std::size_t j = 0; j < count; ++j)
+      if (motion.contacts[j].phase == ContactPhase::contact) acting |= 1U << j;
+    const ContactSet &dynamics = set(acting);
+    const double left = end - motion.time;
+    const bool last = left <= dynamics.longest_piece();
+    const double length = last ? left : dynamics.longest_piece();
+    const double angle = machine_.chain.omega * motion.time;
+    piece.begin = motion.time;
+    dynamics.expand(piece, motion.state, length, std::sin(angle), std::cos(angle));
+    piece.end = 2.0;
+    for (std::size_t j = 0; j < count; ++j) {
+      exits[j] = first_exit(piece, j, motion.contacts[j]);
+      piece.end = std::min(piece.end, exits[j].share);
+    }
+    const bool event = piece.end <= 1.0;
+    if (!event) piece.end = 1.0;
+    if (observer != nullptr && piece.end > 0.0) observer->piece(piece, dynamics, acting);
+    motion.state = piece.state(piece.end);
+    motion.time = !event && last ? end : motion.time + length * piece.end;
+    if (!event) continue;
+    // Contacts whose motion is the same change together.
+    for (std::size_t j = 0; j < count; ++j) {
+      if (exits[j].index < 0 || exits[j].share > piece.end + 1e-15) continue;
+      const ContactChange change = leave(motion, j, exits[j].index);
+      if (observer != nullptr) observer->change(change);
+      if (++changes > most_changes)
+        throw std::runtime_error(
+            fmt::format("more than {} contacts made and broken in cycle {}", most_changes, motion.cycle + 1));
+    }
+  }
+  motion.time = 0.0;
+  ++motion.cycle;
+  for (TwoEndsMotion::Contact &contact : motion.contacts)
+    contact.changed -= end;
+}
+
+namespace {
+
+/// Small differences of two motions.
+class Differences : public TwoEndsObserver {
+public:
+  explicit Differences(const TwoEnds &machine) : machine_(machine) {}
+  const TwoEndsMatrix &matrix() const { return matrix_; }
+
+  void piece(const ContactSet::Piece &piece, const ContactSet &set, std::uint32_t /*acting*/) override {
+    matrix_ = set.carry(matrix_, piece.length * piece.end);
+  }
+  // Saltation: the neighbour that comes later is without the dashpot's force for that time (see PhaseChange
+  // of closed_form.h).
+  void change(const ContactChange &change) override {
+    if (change.jump == 0.0) return;
+    const double y = machine_.contacts[change.contact].y;
+    const Eigen::Matrix<double, 1, 8> apart = change.jump * (matrix_.row(drum) + y * matrix_.row(drum_tilt));
+    matrix_.row(4 + drum) -= apart / machine_.chain.m2;
+    matrix_.row(4 + drum_tilt) -= y / machine_.drum_inertia * apart;
+  }
+
+private:
+  const TwoEnds &machine_;
+  TwoEndsMatrix matrix_ = TwoEndsMatrix::Identity();
+};
+
+} // namespace
+
+TwoEndsMatrix TwoEndsSolver::monodromy(TwoEndsMotion &motion) const {
+  Differences differences(machine_);
+  finish_cycle(motion, &differences);
+  return differences.matrix();
+}
+
+// ---- history ----
+
+namespace {
+
+// Samples and events of cycles, and what is asked of each cycle.
+class Recorder : public TwoEndsObserver {
+public:
+  Recorder(const TwoEnds &machine, const DirectOptions &options)
+      : machine_(machine), options_(options), k_(machine.bonds, &AxleLink::k, every),
+        c_(machine.bonds, &AxleLink::c, every), period_(machine.chain.period()),
+        end_(static_cast<double>(options.last_point()) / static_cast<double>(options.points_per_cycle()) *
+             period_),
+        last_row_(options.last_point() / options.points_per_sample()) {
+    for (const HistoryColumn &column : history_columns)
+      if (column.group != ColumnGroup::way)
+        (result_.history.*column.values).reserve(static_cast<std::size_t>(last_row_) + 1);
+  }
+
+  void begin_cycle(long cycle) {
+    start_ = static_cast<double>(cycle) * period_;
+    row_of_cycle_ = cycle * options_.samples_per_cycle;
+    next_ = 0;
+    summary_ = {static_cast<int>(cycle) + 1, start_, no_limit, -no_limit, no_limit, -no_limit, 0.0, 0, 0};
+  }
+  void end_cycle() {
+    if (machine_.chain.transition == Transition::B)
+      summary_.F_contact_min = std::max(0.0, summary_.F_contact_min);
+    summary_.contact_share = std::min(1.0, summary_.contact_share / period_);
+    result_.cycles.push_back(summary_);
+  }
+
+  void piece(const ContactSet::Piece &piece, const ContactSet &set, std::uint32_t acting) override {
+    ++result_.cost.steps;
+    summarize(piece, set, acting);
+    for (; next_ < options_.samples_per_cycle && row_of_cycle_ + next_ <= last_row_; ++next_) {
+      const double t = next_ * period_ / options_.samples_per_cycle;
+      const double s = (t - piece.begin) / piece.length;
+      if (s >= piece.end) break;
+      row(set, acting, t, piece.state(std::max(0.0, s)));
+    }
+  }
+  void change(const ContactChange &change) override {
+    const bool make = change.to == ContactPhase::contact;
+    if (!make && change.from != ContactPhase::contact) return;
+    if (start_ + change.time > end_) return;
+    ++(make ? summary_.makes : summary_.breaks);
+    if (result_.events.size() >= DirectOptions::most_events)
+      throw std::runtime_error(fmt::format("more than {} contacts made and broken up to t = {} s",
+                                           DirectOptions::most_events, start_ + change.time));
+    result_.events.push_back({start_ + change.time, make, change.overlap, change.overlap_rate, change.force,
+                              1, 2 + static_cast<long>(change.contact)});
+  }
+  void row(const ContactSet &set, std::uint32_t acting, double t, const TwoEndsState &y) {
+    const bool clipped = machine_.chain.transition == Transition::B;
+    double F_left = 0.0, F_right = 0.0;
+    for (std::size_t j = 0; j < machine_.contacts.size(); ++j) {
+      if (((acting >> j) & 1U) == 0) continue;
+      const AxleLink &link = machine_.contacts[j];
+      double force = -(link.k * height(y, link.y) + link.c * rise(y, link.y));
+      if (clipped) force = std::max(0.0, force);
+      if (link.y == 0.0) {
+        F_left += 0.5 * force;
+        F_right += 0.5 * force;
+      } else {
+        (link.y < 0.0 ? F_left : F_right) += force;
+      }
+    }
+    const double sine = std::sin(machine_.chain.omega * t);
+    const Vector4d a = set.acceleration(y, sine);
+    ChainHistory &h = result_.history;
+    h.time.push_back(start_ + t);
+    h.x_drum.push_back(y[drum]);
+    h.v_drum.push_back(y[4 + drum]);
+    h.a_drum.push_back(a[drum]);
+    h.x_frame.push_back(y[frame]);
+    h.v_frame.push_back(y[4 + frame]);
+    h.a_frame.push_back(a[frame]);
+    h.F_contact.push_back(F_left + F_right);
+    h.F_excitation.push_back(machine_.chain.Fw * sine);
+    h.F_bond.push_back(
+        k_.all * (y[frame] - y[drum]) + k_.first * (y[frame_tilt] - y[drum_tilt]) +
+        (c_.all * (y[4 + frame] - y[4 + drum]) + c_.first * (y[4 + frame_tilt] - y[4 + drum_tilt])));
+    h.theta_drum.push_back(y[drum_tilt]);
+    h.omega_drum.push_back(y[4 + drum_tilt]);
+    h.theta_frame.push_back(y[frame_tilt]);
+    h.omega_frame.push_back(y[4 + frame_tilt]);
+    h.a_left.push_back(a[drum] - machine_.sensor * a[drum_tilt]);
+    h.a_right.push_back(a[drum] + machine_.sensor * a[drum_tilt]);
+    h.F_left.push_back(F_left);
+    h.F_right.push_back(F_right);
+  }
+  DirectResult take() { return std::move(result_); }
+
+private:
+  // Extremes and time in contact of a piece, up to its end.
+  void summarize(const ContactSet::Piece &piece, const ContactSet &set, std::uint32_t acting) {
+    std::array<double, most_terms> a{};
+    std::array<double, most_terms> F{};
+    const Vector4d &sums = set.sums();
+    double power = 1.0; // of piece.end
+    for (std::size_t n = 0; n < piece.terms; ++n, power *= piece.end) {
+      const Vector4d &x = piece.position[n], &v = piece.velocity[n];
+      F[n] =
+          -(sums[0] * x[drum] + sums[1] * x[drum_tilt] + sums[2] * v[drum] + sums[3] * v[drum_tilt]) * power;
+      if (n + 1 < piece.terms)
+        a[n] = static_cast<double>(n + 1) * piece.velocity[n + 1][drum] / piece.length * power;
+    }
+    include(a, piece.terms - 1, summary_.a_drum_min, summary_.a_drum_max);
+    include(F, piece.terms, summary_.F_contact_min, summary_.F_contact_max);
+    if (acting != 0) summary_.contact_share += piece.length * piece.end;
+  }
+  static void include(std::array<double, most_terms> &values, std::size_t terms, double &min, double &max) {
+    max = largest_value(values.data(), terms, max);
+    for (double &value : values)
+      value = 0.0 - value;
+    min = -largest_value(values.data(), terms, -min);
+  }
+
+  const TwoEnds &machine_;
+  const DirectOptions &options_;
+  Moments k_, c_; // of the bonds
+  double period_;
+  double end_;
+  long last_row_;
+  int next_ = 0;
+  long row_of_cycle_ = 0;
+  double start_ = 0.0;
+  CycleSummary summary_;
+  DirectResult result_;
+};
+
+constexpr std::size_t longest_orbit = 8, measured_cycles = 100, least_measured = 20;
+
+/// \param motions at the starts of the last cycles and at the end
+TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMotion> &motions) {
+  const TwoEnds &machine = solver.machine();
+  const ChainParameters &p = machine.chain;
+  const double amplitude = std::max(p.Fw / (p.m2 * p.omega * p.omega), 1e-300);
+  // Tilts count as displacements at the radius of gyration, velocities by the frequency.
+  TwoEndsState scale;
+  scale << (masses(machine) / p.m2).cwiseSqrt(), (masses(machine) / p.m2).cwiseSqrt() / p.omega;
+  TwoEndsOrbit orbit;
+  const std::size_t last = motions.size() - 1;
+  for (std::size_t cycles = 1; cycles <= std::min(last, longest_orbit) && orbit.cycles == 0; ++cycles) {
+    const TwoEndsState apart = motions[last].state - motions[last - cycles].state;
+    if (apart.cwiseProduct(scale).lpNorm<Eigen::Infinity>() <= 1e-6 * amplitude)
+      orbit.cycles = static_cast<int>(cycles);
+  }
+  const std::size_t count = orbit.cycles > 0 ? static_cast<std::size_t>(orbit.cycles) : last;
+  if (count == 0 || (orbit.cycles == 0 && count < least_measured)) return orbit;
+  // The products of bounce and of tilt are kept near one, and their sizes as logarithms.
+  constexpr std::array<int, 8> order = {drum,      frame,      4 + drum,      4 + frame,
+                                        drum_tilt, frame_tilt, 4 + drum_tilt, 4 + frame_tilt};
+  TwoEndsMatrix all = TwoEndsMatrix::Identity();
+  Matrix4d tilt = Matrix4d::Identity();
+  double size = 0.0, tilt_size = 0.0, half_size = 0.0, half_tilt_size = 0.0;
+  bool coupled = false;
+  const auto shorten = [](auto &matrix, double &logarithm) {
+    const double norm = matrix.norm();
+    if (!(norm > 0.0)) return;
+    matrix /= norm;
+    logarithm += std::log(norm);
+  };
+  TwoEndsMotion motion = motions[last - count];
+  for (std::size_t cycle = 0; cycle < count; ++cycle) {
+    const TwoEndsMatrix plain = solver.monodromy(motion);
+    TwoEndsMatrix step;
+    for (int i = 0; i < 8; ++i)
+      for (int j = 0; j < 8; ++j)
+        step(i, j) = plain(order[i], order[j]) * scale[order[i]] / scale[order[j]];
+    coupled =
+        coupled || !step.topRightCorner<4, 4>().isZero(1e-9) || !step.bottomLeftCorner<4, 4>().isZero(1e-9);
+    all = (step * all).eval();
+    tilt = (step.bottomRightCorner<4, 4>() * tilt).eval();
+    shorten(all, size);
+    shorten(tilt, tilt_size);
+    if (cycle + 1 == count / 2) {
+      half_size = size;
+      half_tilt_size = tilt_size;
+    }
+  }
+  const auto grown = [&orbit, count](const auto &matrix, double logarithm, double half) {
+    if (orbit.cycles > 0) return std::exp(logarithm) * matrix.eigenvalues().cwiseAbs().maxCoeff();
+    return std::exp((logarithm - half) / static_cast<double>(count - count / 2));
+  };
+  orbit.largest = grown(all, size, half_size);
+  if (!coupled) orbit.of_tilt = grown(tilt, tilt_size, half_tilt_size);
+  return orbit;
+}
+
+} // namespace
+
+std::string too_much_work(const TwoEnds &machine, const DirectOptions &options) {
+  constexpr double most_pieces = 2e7;
+  const double per_cycle = machine.chain.period() / ContactSet(machine, ~0U).longest_piece() + 1.0;
+  if (std::ceil(options.cycles) * per_cycle <= most_pieces) return {};
+  return refusal(
+      "cycles", options.cycles,
+      fmt::format("at most {:.3g} of this machine and soil, whose fastest motion needs {:.3g} steps "
+                  "per cycle",
+                  most_pieces / per_cycle, per_cycle));
+}
+
+TwoEndsResult solve_two_ends(const TwoEnds &machine, const DirectOptions &options,
+                             const SolverProgress &progress) {
+  if (const std::string fault = options.invalid(); !fault.empty()) throw std::invalid_argument(fault);
+  if (!options.way.empty()) throw std::invalid_argument("a machine with two ends does not drive along a way");
+  const TwoEndsSolver solver(machine);
+  Recorder recorder(solver.machine(), options);
+  TwoEndsMotion motion = solver.start(options.impact_speed);
+  std::vector<TwoEndsMotion> motions = {motion};
+  const long whole = options.last_point() / options.points_per_cycle();
+  const bool part = whole == 0 || options.last_point() % options.points_per_cycle() != 0;
+  const auto acting = [&] {
+    std::uint32_t bits = 0;
+    for (std::size_t j = 0; j < machine.contacts.size(); ++j)
+      if (motion.contacts[j].phase == ContactPhase::contact) bits |= 1U << j;
+    return bits;
+  };
+  for (long cycle = 0; cycle < whole + part; ++cycle) {
+    recorder.begin_cycle(cycle);
+    if (cycle == 0)
+      for (std::size_t j = 0; j < machine.contacts.size(); ++j)
+        if (motion.contacts[j].changed == 0.0) { // made at the start
+          const AxleLink &link = machine.contacts[j];
+          const double rate = 0.0 - rise(motion.state, link.y);
+          recorder.change(
+              {j, ContactPhase::flight, ContactPhase::contact, 0.0, 0.0, rate, link.c * rate + 0.0, link.c});
+        }
+    solver.finish_cycle(motion, &recorder);
+    if (cycle < whole) {
+      recorder.end_cycle();
+      if (motions.size() > measured_cycles) motions.erase(motions.begin());
+      motions.push_back(motion);
+    }
+    if (progress) progress(std::min(1.0, static_cast<double>(cycle + 1) / options.cycles));
+  }
+  if (!part) {
+    recorder.begin_cycle(whole);
+    recorder.row(ContactSet(machine, acting()), acting(), 0.0, motion.state);
+  }
+  TwoEndsResult result;
+  static_cast<DirectResult &>(result) = recorder.take();
+  result.orbit = orbit_of(solver, motions);
+  return result;
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,197 @@
+// A drum and a frame that move vertically and tilt about the way of travel, on contacts along the width of
+// the drum, solved in closed form. Each contact is made and broken by itself (transition A or B, as in
+// chain/parameters.h). Between two of these events the motion is linear with a sinusoidal force: it is
+// continued by power series, and events are found, as in chain/closed_form.h.
+//
+//     m2 z2'' = -m2 g + sum F_j + sum B_i - F_e          I2 th2'' = sum y_j F_j + sum y_i B_i - y_e F_e
+//     m3 z3'' = -m3 g           - sum B_i                I3 th3'' =             - sum y_i B_i
+//     F_j = k_j d_j + c_j d_j' in contact, else 0,       d_j = -(z2 + y_j th2)
+//     B_i = k_i e_i + c_i e_i',                          e_i = z3 - z2 + y_i (th3 - th2)
+//
+// with 2 the drum and 3 the frame, whose centres of mass are at y = 0, y to the right along the axle, z up.
+#pragma once
+
+#include "chain/closed_form.h"
+#include "chain/direct_solver.h"
+#include "chain/parameters.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// A spring and a dashpot at a place along the axle: a contact of drum and soil, or a bond of drum and frame.
+struct AxleLink {
+  double y = 0.0; ///< from the middle of the drum, positive to the right [m]
+  double k = 0.0; ///< [N/m]
+  double c = 0.0; ///< [N s/m]
+};
+
+constexpr int most_contacts = 32;
+
+/// `count` equal contacts that share k [N/m] and c [N s/m], at y_j = (j - (count + 1)/2) width/sqrt(count^2 -
+/// 1), which have the rocking stiffness k width^2/12 of a line of springs whatever their number; a single one
+/// in the middle.
+std::vector<AxleLink> equal_contacts(int count, double width, double k, double c);
+
+/// Contacts from a table with the columns of contact_columns. Throws std::invalid_argument with one line if
+/// it cannot be used. \param width of the drum, in which the contacts must lie [m]
+std::vector<AxleLink> read_contacts(const std::filesystem::path &file, double width);
+constexpr const char *contact_columns = "y (m),k (N/m),c (N s/m)";
+
+/// The machine on its soil, and how it starts.
+struct TwoEnds {
+  /// Masses, excitation, gravity and transition; its k, D, k23 and c23 have no effect.
+  ChainParameters chain;
+  double drum_inertia = 0.0;  ///< about the way of travel [kg m2]
+  double frame_inertia = 0.0; ///< [kg m2]
+  double exciter = 0.0;       ///< place of the exciter's force [m]
+  double sensor = 0.0;        ///< distance from the middle at which a_left and a_right are taken [m]
+  double tilt = 0.0;          ///< of drum and frame at the start, besides that of equilibrium [rad]
+  std::vector<AxleLink> contacts;
+  std::vector<AxleLink> bonds;
+
+  /// Empty if it can be solved; else one line that names what cannot be and what is allowed.
+  std::string invalid() const;
+};
+
+/// The machine without contacts. \param roller how it tilts: what its file does not say is assumed (see
+/// assumed_ends()), and so is the width if it has none
+TwoEnds two_ends(const ChainParameters &chain, const Roller &roller);
+/// The names of what is assumed, as those of a roller file.
+std::vector<std::string> assumed_ends(const Roller &roller);
+/// The width of the drum [m].
+double drum_width(const Roller &roller);
+
+/// Positions z_drum [m], z_frame [m], theta_drum [rad], theta_frame [rad], then their velocities.
+using TwoEndsState = Eigen::Matrix<double, 8, 1>;
+using TwoEndsMatrix = Eigen::Matrix<double, 8, 8>;
+
+/// The linear dynamics while a certain set of contacts acts.
+class ContactSet {
+public:
+  /// \param acting bit j set: contact j acts
+  ContactSet(const TwoEnds &machine, std::uint32_t acting);
+
+  double longest_piece() const { return most_reach / rate_; }
+  /// Motion over a piece as a polynomial in s: position[n] and velocity[n] times s^n, as MotionPiece has it.
+  struct Piece {
+    std::array<Eigen::Vector4d, most_terms> position, velocity;
+    std::size_t terms = 0;
+    double begin = 0.0, length = 0.0, end = 1.0; ///< as of MotionPiece
+
+    TwoEndsState state(double s) const;
+  };
+  void expand(Piece &piece, const TwoEndsState &from, double length, double sine, double cosine) const;
+  Eigen::Vector4d acceleration(const TwoEndsState &state, double sine) const;
+  /// exp(A time) applied to small differences of two motions.
+  TwoEndsMatrix carry(const TwoEndsMatrix &differences, double time) const;
+  /// Sums over the contacts that act: of k and k y, c and c y.
+  const Eigen::Vector4d &sums() const { return sums_; }
+
+private:
+  Eigen::Matrix4d stiffness_, damping_; ///< per mass: acceleration = -stiffness x - damping v + ...
+  Eigen::Vector4d gravity_, push_;      ///< accelerations; of gravity what the springs do not carry at rest
+  Eigen::Vector4d rest_;                ///< positions at rest: from there small motions keep their digits
+  Eigen::Vector4d sums_;
+  double omega_ = 0.0;
+  double rate_ = 0.0; ///< bound of the norm of A in scaled coordinates [1/s]
+};
+
+/// Present state of a motion.
+struct TwoEndsMotion {
+  TwoEndsState state = TwoEndsState::Zero();
+  long cycle = 0;    ///< number of completed cycles
+  double time = 0.0; ///< since the start of the cycle [s]
+  struct Contact {
+    ContactPhase phase = ContactPhase::flight;
+    int boundary = -1;     ///< index of the event condition that its last event left at zero; -1: none
+    double changed = -1.0; ///< time of that event since the start of the cycle [s]
+  };
+  std::array<Contact, most_contacts> contacts;
+};
+
+/// A contact that is made or broken, or whose overlap without force ends.
+struct ContactChange {
+  std::size_t contact = 0;
+  ContactPhase from = ContactPhase::contact, to = ContactPhase::contact;
+  double time = 0.0;         ///< since the start of the cycle [s]
+  double overlap = 0.0;      ///< [m]
+  double overlap_rate = 0.0; ///< [m/s]
+  double force = 0.0;        ///< just after a make or just before a break [N]
+  double jump =
+      0.0; ///< damping coefficient that begins (positive) or ends to act with an overlap rate [N s/m]
+};
+
+/// Receives each piece and each change of a contact, in the order of time.
+class TwoEndsObserver {
+public:
+  virtual ~TwoEndsObserver() = default;
+  virtual void piece(const ContactSet::Piece &piece, const ContactSet &set, std::uint32_t acting) = 0;
+  virtual void change(const ContactChange &change) = 0;
+};
+
+/// Solves one machine on one soil.
+class TwoEndsSolver {
+public:
+  /// std::invalid_argument for a machine that cannot be solved.
+  explicit TwoEndsSolver(TwoEnds machine);
+
+  const TwoEnds &machine() const { return machine_; }
+  /// Static equilibrium with the machine's tilt, or an impact without it.
+  TwoEndsMotion start(double impact_speed = 0.0) const;
+  /// A motion at the start of a cycle: the phases of the contacts follow from the state.
+  TwoEndsMotion start_at(const TwoEndsState &state) const;
+  /// Force of a contact [N].
+  double force(const TwoEndsMotion::Contact &contact, std::size_t index, const TwoEndsState &state) const;
+  /// Continues the motion to the end of the cycle. Throws std::runtime_error if it has more than 100,000
+  /// changes of contacts in it.
+  void finish_cycle(TwoEndsMotion &motion, TwoEndsObserver *observer = nullptr) const;
+  /// The matrix that maps small differences of two motions through the next cycle, which the motion goes.
+  TwoEndsMatrix monodromy(TwoEndsMotion &motion) const;
+
+private:
+  struct Exit {
+    int index = -1;
+    double share = 2.0;
+  };
+  const ContactSet &set(std::uint32_t acting) const;
+  Exit first_exit(const ContactSet::Piece &piece, std::size_t contact,
+                  const TwoEndsMotion::Contact &now) const;
+  ContactChange leave(TwoEndsMotion &motion, std::size_t contact, int exit) const;
+
+  TwoEnds machine_;
+  TwoEndsState rest_;                                ///< static equilibrium
+  mutable std::map<std::uint32_t, ContactSet> sets_; ///< made when they are met
+};
+
+/// Whether the last cycles repeat, and how small differences of two motions grow.
+struct TwoEndsOrbit {
+  int cycles = 0; ///< after which the motion repeats to 1e-6 of its amplitude, at most 8; 0: it does not
+  /// Modulus of the largest Floquet multiplier; of a motion that does not repeat the growth per cycle, mean
+  /// of up to the last 100.
+  double largest = 0.0;
+  double of_tilt = -1.0; ///< the same of tilting alone; negative where it is coupled with bounce
+};
+
+struct TwoEndsResult : DirectResult {
+  TwoEndsOrbit orbit;
+};
+
+/// Empty if the solution takes no more than a minute; else one line that names the number of cycles.
+std::string too_much_work(const TwoEnds &machine, const DirectOptions &options);
+
+/// The history with the columns of both ends; in its events the id of contact j, counted from 1, is 1 + j.
+/// `rtol` has no effect. Throws std::invalid_argument if it cannot be solved.
+TwoEndsResult solve_two_ends(const TwoEnds &machine, const DirectOptions &options,
+                             const SolverProgress &progress = {});
+
+} // namespace drumlin::post
