@@ -217,18 +217,19 @@ void add_advise_command(CLI::App &app, Session &) {
       "advise",
       "Steps per cycle that a run of the chain needs for an error, by the measured curves of the accuracy "
       "study; for other chains than the measured ones scaled, with a margin. With --bed the cheapest scene "
-      "of a bed.");
+      "of a bed, and how many beds of each scene give its mean.");
   command->footer("Examples:\n"
                   "  drumlin advise --error 1e-3 --case II\n"
                   "  drumlin advise --bed --question force --within 20%\n"
-                  "  drumlin advise --bed --question settlement --within 2mm\n");
+                  "  drumlin advise --bed --question settlement --within 2mm\n"
+                  "  drumlin advise --bed --from inputs/study/scatter --question stiffness --within 10%\n");
   add_chain_options(*command, arguments->chain);
   text_option(command, "--error", "NUMBER", arguments->error, "relative error that is allowed");
   text_option(command, "--measure", "TEXT", arguments->measure, "error of: velocity, force or acceleration");
   text_option(command, "--stepping", "TEXT", arguments->stepping, "second or stock");
   text_option(command, "--cycles", "COUNT", arguments->cycles, "length of the run, for its time");
   text_option(command, "--from", "DIR", arguments->from,
-              "folder of an accuracy study of your own (with --bed: of a fidelity study), instead of the "
+              "folder of an accuracy study of your own (with --bed: of any study of beds), instead of the "
               "project's");
   command->add_flag("--bed", arguments->bed,
                     "advise on a bed instead: the cheapest scene that the fidelity study has measured (see "
