@@ -18,11 +18,13 @@ namespace {
 /// A scene counts as cheaper than the complete one if it takes at most this share of its processor time.
 constexpr double most_of_cheaper = 0.9;
 
-/// The smallest number of beds of which the mean has a half width of at most `within`; at least 2.
+constexpr int most_beds = 1000000;
+
+/// The smallest number of beds of which the mean has a half width of at most `within`; at least 2, at most
+/// `most_beds`.
 int beds_for(double scatter, double within) {
-  constexpr int most = 1000000;
   int beds = 2;
-  while (beds < most && t_factor(beds - 1.0) * scatter / std::sqrt(static_cast<double>(beds)) > within)
+  while (beds < most_beds && t_factor(beds - 1.0) * scatter / std::sqrt(static_cast<double>(beds)) > within)
     ++beds;
   return beds;
 }
@@ -111,6 +113,36 @@ BedAdvice advise_bed(const BedExperiment &experiment, const BedQuestion &questio
   return best;
 }
 
+std::vector<SceneScatter> scatter_of_scenes(const BedExperiment &experiment, const BedQuestion &question) {
+  std::vector<SceneScatter> all;
+  for (const Scene &scene : experiment.plan.scenes) {
+    const std::vector<double> values = numbers(experiment.results.values(scene.name, question.quantity));
+    if (values.size() < 2) continue;
+    SceneScatter one;
+    one.scene = &scene;
+    one.seeds = values.size();
+    one.mean = mean_interval(values);
+    one.scatter = scatter_interval(values);
+    if (question.absolute || one.mean.significant()) {
+      const double within = question.within * (question.absolute ? 1.0 : std::fabs(one.mean.mean));
+      const auto beds = [within](double scatter) {
+        const int found = beds_for(scatter, within);
+        return found < most_beds ? found : 0;
+      };
+      one.beds = beds(one.scatter.estimate);
+      one.least_beds = beds(one.scatter.least);
+      one.most_beds = beds(one.scatter.most);
+    }
+    if (const std::vector<double> costs = numbers(experiment.results.costs(scene.name)); !costs.empty())
+      one.cpu_s = median(costs);
+    all.push_back(one);
+  }
+  std::stable_sort(all.begin(), all.end(), [](const SceneScatter &a, const SceneScatter &b) {
+    return a.beds > 0 && (b.beds == 0 || a.total_s() < b.total_s());
+  });
+  return all;
+}
+
 std::string scene_words(const Scene &scene) {
   const PackingOptions &packing = scene.bed->packing;
   std::string words =
@@ -128,11 +160,19 @@ std::vector<std::string> scene_commands(const Scene &scene) {
   std::string bed = "bed";
   if (scene.bed->layers.empty()) bed += fmt::format(" --balls {}", packing.balls);
   for (const BedLayer &layer : scene.bed->layers)
-    bed += fmt::format(" --layer {}", layer.thickness);
+    bed += fmt::format(" --layer {}", layer.thickness) +
+           (layer.packing.sieve // SMALLEST-LARGEST, cut at the smallest
+                ? fmt::format(":{0}:{1}", layer.packing.sieve_name,
+                              layer.packing.sieve_name.substr(0, layer.packing.sieve_name.find('-', 1)))
+                : "");
   bed += fmt::format(" --width {}", packing.width);
   if (packing.depth > 0.0) bed += fmt::format(" --depth {}", packing.depth);
   if (packing.height > 0.0) bed += fmt::format(" --height {}", packing.height);
-  if (packing.radius_min != usual.radius_min || packing.radius_max != usual.radius_max)
+  const std::vector<BedLayer> &layers = scene.bed->layers;
+  const bool has_radii =
+      layers.empty() ||
+      std::any_of(layers.begin(), layers.end(), [](const BedLayer &layer) { return !layer.packing.sieve; });
+  if (has_radii && (packing.radius_min != usual.radius_min || packing.radius_max != usual.radius_max))
     bed += fmt::format(" --radius-min {} --radius-max {}", packing.radius_min, packing.radius_max);
   if (packing.grading != usual.grading) bed += " --grading " + grading_name(packing.grading);
   std::vector<std::string> commands = {bed};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/results.h"
+#include "support/statistics.h"
 
 #include <filesystem>
 #include <optional>
@@ -54,6 +55,25 @@ BedExperiment read_bed_experiment(const std::filesystem::path &folder);
 /// one is within. Throws std::runtime_error if there is no scene to compare and, for a relative error, if the
 /// mean of the complete beds does not differ from zero.
 BedAdvice advise_bed(const BedExperiment &experiment, const BedQuestion &question);
+
+/// How single beds of a scene scatter, and what a mean over them takes.
+struct SceneScatter {
+  const Scene *scene = nullptr;
+  std::size_t seeds = 0;
+  MeanInterval mean{};       ///< in the unit of the quantity
+  ScatterInterval scatter{}; ///< in the same unit
+  /// How many beds must be averaged so that the 95 % confidence interval of their mean has a half width of at
+  /// most BedQuestion::within, of the scene's own mean unless absolute; by the scatter, and by both ends of
+  /// its interval. 0: more than a million, or no error relative to a mean that does not differ from zero.
+  int beds = 0, least_beds = 0, most_beds = 0;
+  double cpu_s = 0.0; ///< processor time of the excitation of one bed, median over the seeds [s]
+
+  double total_s() const { return cpu_s * beds; } ///< of all beds
+};
+
+/// Of all scenes with two seeds or more; those first that take the least processor time for their beds, those
+/// for which the number of beds is not known last.
+std::vector<SceneScatter> scatter_of_scenes(const BedExperiment &experiment, const BedQuestion &question);
 
 /// The scene in words: dimensions, number and size of balls, box, drum.
 std::string scene_words(const Scene &scene);

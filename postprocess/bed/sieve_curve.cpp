@@ -162,6 +162,19 @@ std::vector<double> passing_from_individual(const std::vector<double> &kept, boo
 
 } // namespace
 
+std::optional<SieveCurve> curve_between(const std::string &text) {
+  const std::size_t dash = text.find('-', 1);
+  if (dash == std::string::npos) return {};
+  const std::optional<double> smallest = any_number_from_text(text.substr(0, dash)),
+                              largest = any_number_from_text(text.substr(dash + 1));
+  if (!smallest || !largest || !(*smallest < *largest)) return {};
+  try {
+    return SieveCurve({{*smallest * mm, 0.0}, {*largest * mm, 1.0}});
+  } catch (const SieveFault &) { // of sizes that no sieve has
+    return {};
+  }
+}
+
 SieveCurve read_sieve_file(const std::filesystem::path &file) {
   const MeasuredTable table(file);
   const std::optional<std::size_t> size_column = column_named(table, {"size", "sieve size", "sieve"});

@@ -6,7 +6,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace drumlin::post {
@@ -59,6 +61,10 @@ public:
 private:
   std::vector<Sieve> sieves_;
 };
+
+/// The curve of "SMALLEST-LARGEST", sizes in mm such as 32-48: the same mass in equal intervals of ln(size)
+/// between them. Nothing if the text is not of this form, or its sizes are not two that rise.
+std::optional<SieveCurve> curve_between(const std::string &text);
 
 /// Reads a table as a laboratory writes it (MeasuredTable), a row for each sieve, the finest or the coarsest
 /// first: a column `size`, in mm if it has no unit, and one of

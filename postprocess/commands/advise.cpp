@@ -81,6 +81,35 @@ void judge_within(const std::string &text, BedQuestion &request) {
                                          settlement ? ", or a settlement per cycle, as 2mm" : "")));
 }
 
+/// How many beds of each scene give its own mean within the request, and the time that they take.
+void tell_scatter(const BedExperiment &experiment, const BedQuestion &request) {
+  const Quantity &quantity = *bed_quantity(request.quantity);
+  fmt::print(
+      "  beds       that give the mean of a scene within {:g} {}, in brackets if its scatter is at the "
+      "ends of its own 95 % interval, and their processor time; mean and scatter of the seeds "
+      "measured:\n",
+      request.absolute ? 1e3 * request.within : 100.0 * request.within, request.absolute ? "mm" : "%");
+  const auto seconds = [](double time) {
+    constexpr double whole = 10.0; // from here on without decimals
+    return time < whole ? fmt::format("{:.2g} s", time) : fmt::format("{:.0f} s", time);
+  };
+  const auto shown_beds = [](int beds) {
+    return beds > 0 ? std::to_string(beds) : std::string("more than a million");
+  };
+  for (const SceneScatter &one : scatter_of_scenes(experiment, request)) {
+    const std::string beds =
+        one.beds > 0 ? fmt::format("{} ({} to {}) x {} = {}", one.beds, shown_beds(one.least_beds),
+                                   shown_beds(one.most_beds), seconds(one.cpu_s), seconds(one.total_s()))
+                     : std::string("not known: the mean may be zero");
+    const double scatter = quantity.scale * one.scatter.estimate;
+    const int decimals = // two digits of the scatter
+        scatter > 0.0 ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(scatter)))) : 0;
+    fmt::print("             {}: {}; {:.{}f} +- {:.{}f} {}, one bed +- {:.{}f} ({} seeds)\n", one.scene->name,
+               beds, quantity.scale * one.mean.mean, decimals, quantity.scale * one.mean.half_width, decimals,
+               quantity.shown_unit, scatter, decimals, one.seeds);
+  }
+}
+
 void run_bed(const Arguments &arguments) {
   BedQuestion request;
   request.name = choice_option("--question", arguments.question.value_or(""),
@@ -113,6 +142,7 @@ void run_bed(const Arguments &arguments) {
              "of the complete scene; "
              "settling and placing come in addition\n",
              advice.cpu_s, value_of(*advice.scene, "cycles"), advice.cost);
+  tell_scatter(experiment, request);
   fmt::print("  scene      {}\n", scene_words(*advice.scene));
   for (const std::string &words : scene_commands(*advice.scene))
     fmt::print("  run        {} {}\n", front_command(), words);
@@ -187,18 +217,19 @@ void add_advise_command(CLI::App &app, Session &) {
       "advise",
       "Steps per cycle that a run of the chain needs for an error, by the measured curves of the accuracy "
       "study; for other chains than the measured ones scaled, with a margin. With --bed the cheapest scene "
-      "of a bed.");
+      "of a bed, and how many beds of each scene give its mean.");
   command->footer("Examples:\n"
                   "  drumlin advise --error 1e-3 --case II\n"
                   "  drumlin advise --bed --question force --within 20%\n"
-                  "  drumlin advise --bed --question settlement --within 2mm\n");
+                  "  drumlin advise --bed --question settlement --within 2mm\n"
+                  "  drumlin advise --bed --from inputs/study/scatter --question stiffness --within 10%\n");
   add_chain_options(*command, arguments->chain);
   text_option(command, "--error", "NUMBER", arguments->error, "relative error that is allowed");
   text_option(command, "--measure", "TEXT", arguments->measure, "error of: velocity, force or acceleration");
   text_option(command, "--stepping", "TEXT", arguments->stepping, "second or stock");
   text_option(command, "--cycles", "COUNT", arguments->cycles, "length of the run, for its time");
   text_option(command, "--from", "DIR", arguments->from,
-              "folder of an accuracy study of your own (with --bed: of a fidelity study), instead of the "
+              "folder of an accuracy study of your own (with --bed: of any study of beds), instead of the "
               "project's");
   command->add_flag("--bed", arguments->bed,
                     "advise on a bed instead: the cheapest scene that the fidelity study has measured (see "

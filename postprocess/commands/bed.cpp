@@ -68,11 +68,14 @@ struct Arguments {
 std::pair<SieveCurve, std::string> asked_grading(const char *option, const std::string &text) {
   if (const KnownGrading *known = find_grading(text)) return {known->curve(), known->name};
   const fs::path file = path_option(option, text);
-  if (!fs::exists(file))
+  if (!fs::exists(file)) {
+    if (const std::optional<SieveCurve> curve = curve_between(text)) return {*curve, text};
     throw UsageError(refusal(
         option, text,
-        fmt::format("a CSV file with the columns size (mm) and passing (%) or retained (%), or one of {}",
+        fmt::format("a CSV file with the columns size (mm) and passing (%) or retained (%), or one of {}, or "
+                    "the smallest and the largest size, in mm, as 32-48",
                     grading_names())));
+  }
   std::string name = file.stem().string();
   for (char &letter : name)
     if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-' && letter != '.') letter = '_';
@@ -474,7 +477,8 @@ void add_bed_command(CLI::App &app, Session &) {
   text_option(
       bed, "--sieve", "FILE", arguments->sieve,
       fmt::format("grading instead of radii: a table of the laboratory with the columns size (mm) and "
-                  "passing (%) or retained (%) by mass, or one of {}",
+                  "passing (%) or retained (%) by mass, one of {}, or the smallest and the largest size, as "
+                  "32-48 [mm]",
                   grading_names()));
   text_option(bed, "--cut", "NUMBER", arguments->cut,
               "smallest size of a ball with --sieve [mm]; default: so that the balls fill the box to "

@@ -183,9 +183,11 @@ void add_study_command(CLI::App &app, Session &) {
   std::string footer =
       "Plans of beds and samples, in inputs/study/NAME/plan, with 95 % confidence intervals over seeds:\n"
       "  box        what width, depth, walls and absorbing sides of the box change\n"
+      "  damping    where the energy of a cycle goes, and which damping follows\n"
       "  fidelity   effect and time of each part of a bed's model; `drumlin advise --bed` answers "
       "from it\n"
       "  friction   the friction models coulomb and history\n"
+      "  scatter    how many beds give a result within 5 or 10 %; A against B\n"
       "  stiffness  k and D that `drumlin identify` finds, over load, force and frequency\n"
       "  suction    what suction adds to the strength of a soil, in the biaxial test\n"
       "Others:\n";

@@ -415,7 +415,17 @@ private:
   }
   void take_layer() {
     if (seen_.insert(keyword_).second) bed().layers.clear(); // those of the scene above
-    bed().layers.push_back({{}, number(PackingOptions::length_range)});
+    const std::vector<std::string> words = words_of(value_);
+    const std::optional<double> thickness = any_number_from_text(words[0]);
+    const std::optional<SieveCurve> sizes =
+        words.size() == 2 ? curve_between(words[1]) : std::optional<SieveCurve>();
+    if (!thickness || !PackingOptions::length_range.holds(*thickness) || (words.size() > 1 && !sizes))
+      refuse(PackingOptions::length_range.words() +
+             ", and behind it nothing or the smallest and the largest size, in mm, as 32-48");
+    BedLayer layer{{}, *thickness};
+    layer.packing.sieve = sizes;
+    if (sizes) layer.packing.sieve_name = words[1];
+    bed().layers.push_back(layer);
   }
   void take_ratio() { bed().ratio = number_text(number(above_zero)); }
 
@@ -490,7 +500,9 @@ private:
     if (scene.bed->packing.depth > 0.0 && (scene.stiffness > 0.0 || !scene.bed->layers.empty()))
       refuse("stiffness and layer on a bed in the plane: without depth");
     for (BedLayer &layer : scene.bed->layers) {
-      layer.packing = scene.bed->packing;
+      const PackingOptions own = std::exchange(layer.packing, scene.bed->packing);
+      layer.packing.sieve = own.sieve;
+      layer.packing.sieve_name = own.sieve_name;
       if (const std::string wrong = layer.invalid(); !wrong.empty()) refuse("a bed of which " + wrong);
       layer.packing.balls = balls_of(layer);
     }

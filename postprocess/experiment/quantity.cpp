@@ -85,9 +85,13 @@ double mean_of(const std::vector<double> &values) {
   return std::accumulate(begin, values.end(), 0.0) / static_cast<double>(values.end() - begin);
 }
 
+/// The change over the second half of the rows.
+double gain_of(const std::vector<double> &values) {
+  return values.back() - values[static_cast<std::size_t>(second_half(values)) - 1];
+}
+
 double per_row_of(const std::vector<double> &values) {
-  const auto begin = values.begin() + second_half(values);
-  return (values.back() - *(begin - 1)) / static_cast<double>(values.end() - begin);
+  return gain_of(values) / static_cast<double>(values.end() - values.begin() - second_half(values));
 }
 
 /// How a column becomes one number.
@@ -124,6 +128,59 @@ std::function<double(RunFiles &)> of_cycles(const std::string &column, const std
   return of_column("cycles.csv", column, way);
 }
 
+const Table &cycles_of(RunFiles &run) {
+  const Table &table = run.table("cycles.csv");
+  if (table.rows() < 2)
+    csv_fault(table.file(), 0, "work_excitation",
+              fmt::format("has {} rows; allowed: 2 or more", table.rows()));
+  return table;
+}
+
+/// The sum of some energies of cycles.csv, row by row. A bed without yielding, or between rigid walls, has
+/// fewer columns: what they would hold is zero.
+template <std::size_t N>
+std::vector<double> energy_of(const Table &cycles, const std::array<const char *, N> &columns) {
+  std::vector<double> sum(cycles.rows(), 0.0);
+  for (const char *column : columns) {
+    if (!cycles.has(column)) continue;
+    const std::vector<double> values = cycles.numbers(column);
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += values[i];
+  }
+  return sum;
+}
+
+constexpr std::array stores = {"kinetic", "potential", "stored_contact", "stored_bond", "stored_ground"};
+constexpr std::array heats = {"dissipated_contact", "dissipated_bond", "dissipated_friction",
+                              "dissipated_ground", "dissipated_yield"};
+
+/// The share of a heat in all heat of the second half of the cycles, waves that leave included. Nothing
+/// where none arises.
+std::function<double(RunFiles &)> share_of_heat(const char *column) {
+  return [column](RunFiles &run) {
+    const Table &cycles = cycles_of(run);
+    const double all = gain_of(energy_of(cycles, heats));
+    return all > 0.0 ? gain_of(energy_of(cycles, std::array{column})) / all : none;
+  };
+}
+
+/// The energy that bed and roller lose in the second half of the cycles over the work of the exciter: where
+/// the roller sinks, it drives the bed, too. Nothing of an exciter that does no work.
+double released_of(RunFiles &run) {
+  const Table &cycles = cycles_of(run);
+  const double work = gain_of(cycles.numbers("work_excitation"));
+  return work > 0.0 ? -gain_of(energy_of(cycles, stores)) / work : none;
+}
+
+/// Energy error since the start over the work of the exciter.
+double energy_error_of(RunFiles &run) {
+  const Table &cycles = cycles_of(run);
+  const std::vector<double> work = cycles.numbers("work_excitation"), stored = energy_of(cycles, stores),
+                            heat = energy_of(cycles, heats);
+  const double done = work.back() - work.front();
+  return done > 0.0 ? (stored.back() - stored.front() + heat.back() - heat.front()) / done - 1.0 : none;
+}
+
 /// A part of the law that identification finds.
 template <class Part>
 std::function<double(RunFiles &)> of_law(Part part) {
@@ -146,6 +203,7 @@ double cmv_of(RunFiles &run) {
 
 constexpr double relative_tolerance = 0.1;
 constexpr double settlement_tolerance = 1e-3; // m
+constexpr double share_tolerance = 0.05;
 
 } // namespace
 
@@ -163,6 +221,9 @@ const std::vector<Quantity> &bed_quantities() {
   const auto D = [](const Identification &whole) { return whole.law.D.mean; };
   const auto D_half_width = [](const Identification &whole) { return whole.law.D.half_width; };
   const auto r2 = [](const Identification &whole) { return whole.law.r2; };
+  const auto share = [](const char *name, const char *label, const char *column) {
+    return Quantity{name, label, "-", "%", 100.0, share_tolerance, true, share_of_heat(column)};
+  };
   static const std::vector<Quantity> all = {
       {"acceleration", "peak drum acceleration", "m/s2", "m/s2", 1.0, relative_tolerance, false,
        of_cycles("a_drum_max", "mean")},
@@ -183,7 +244,16 @@ const std::vector<Quantity> &bed_quantities() {
       {"D", "damping ratio D", "-", "-", 1.0, relative_tolerance, false, of_law(D)},
       {"D_half_width", "half width of the interval of D in one record", "-", "-", 1.0, relative_tolerance,
        false, of_law(D_half_width)},
-      {"R2", "R2 of the linear law", "-", "-", 1.0, relative_tolerance, false, of_law(r2)}};
+      {"R2", "R2 of the linear law", "-", "-", 1.0, relative_tolerance, false, of_law(r2)},
+      {"work", "work of the exciter in a cycle", "J/m", "J/m", 1.0, relative_tolerance, false,
+       per_metre(of_cycles("work_excitation", "per_row"))},
+      share("radiation", "waves that leave, of all heat", "dissipated_ground"),
+      share("friction", "friction and rolling, of all heat", "dissipated_friction"),
+      share("dashpots", "dashpots, of all heat", "dissipated_contact"),
+      share("yielding", "yielding, of all heat", "dissipated_yield"),
+      share("bond", "bond, of all heat", "dissipated_bond"),
+      {"released", "released over the work", "-", "%", 100.0, share_tolerance, true, &released_of},
+      {"energy_error", "energy error over the work", "-", "-", 1.0, 1e-3, true, &energy_error_of}};
   return all;
 }
 

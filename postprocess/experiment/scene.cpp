@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 
 namespace drumlin::post {
@@ -23,9 +24,18 @@ constexpr double gravel_radius = 0.016, gravel_k = 1e9, gravel_dt = 6.25e-6, gra
 constexpr int gravel_steps = 32; // in multiples of samples_per_cycle, 250
 constexpr int samples_per_cycle = 250;
 
-/// How much longer the time step of a scene is than that of case gravel.
+/// How much longer the time step of a scene is than that of case gravel. Contacts that yield are stiffer in
+/// unloading.
 double longer_step(const Scene &scene) {
-  return scene.bed->packing.radius_min / gravel_radius * std::sqrt(gravel_k / scene.stiffness);
+  double stiffer = 1.0;
+  for (const Setting &setting : scene.settings)
+    if (setting.name == "yield") // the decks refuse what is below 1 or no number
+      stiffer = std::max(1.0, any_number_from_text(setting.value).value_or(1.0));
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const BedLayer &layer : scene.bed->layers)
+    smallest = std::min(smallest, layer.packing.smallest_radius());
+  if (scene.bed->layers.empty()) smallest = scene.bed->packing.radius_min;
+  return smallest / gravel_radius * std::sqrt(gravel_k / (scene.stiffness * stiffer));
 }
 
 /// The variables that rules give, in the scope of each.
@@ -69,9 +79,10 @@ std::string text_of(const PackingOptions &packing) {
 /// The power of the scale of lengths with which a variable of the decks goes in the plane; 0 if it does not
 /// depend on it.
 int power_of(const std::string &name) {
-  static const std::map<std::string, int> powers = {{"r2", 1},  {"r3", 1}, {"ground_depth", 1},
-                                                    {"m2", 2},  {"m3", 2}, {"k23", 2},
-                                                    {"c23", 2}, {"Fw", 2}, {"k", 2}};
+  static const std::map<std::string, int> powers = {
+      {"r2", 1}, {"r3", 1}, {"ground_depth", 1}, {"suction", 1}, {"tensile_strength", 1},
+      {"m2", 2}, {"m3", 2}, {"k23", 2},          {"c23", 2},     {"Fw", 2},
+      {"k", 2}};
   const auto found = powers.find(name);
   return found == powers.end() ? 0 : found->second;
 }

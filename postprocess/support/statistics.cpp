@@ -1,5 +1,6 @@
 #include "support/statistics.h"
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
@@ -55,6 +56,18 @@ MeanError mean_error(const std::vector<double> &values) {
   for (const double value : values)
     squares += (value - mean) * (value - mean);
   return {mean, {squares / (n * (n - 1.0)), n - 1.0}};
+}
+
+ScatterInterval scatter_interval(const std::vector<double> &values) {
+  const MeanError error = mean_error(values);
+  const double freedom = error.variance.freedom;
+  if (!(freedom > 0.0)) return {0.0, 0.0, std::numeric_limits<double>::infinity()};
+  const double estimate = std::sqrt(error.variance.value * static_cast<double>(values.size()));
+  constexpr double tail = 0.025; // on each side
+  const boost::math::chi_squared_distribution<double> distribution(freedom);
+  const double highest = boost::math::quantile(boost::math::complement(distribution, tail)),
+               lowest = boost::math::quantile(distribution, tail);
+  return {estimate, estimate * std::sqrt(freedom / highest), estimate * std::sqrt(freedom / lowest)};
 }
 
 MeanInterval mean_interval(const std::vector<double> &values) {

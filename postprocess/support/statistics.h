@@ -29,6 +29,13 @@ struct MeanInterval {
 /// The factor from a standard error to half the width of its 95 % confidence interval, by Student's t
 /// distribution with so many degrees of freedom (above 0).
 double t_factor(double freedom);
+/// The 95 % confidence interval of the standard deviation of normally distributed values.
+struct ScatterInterval {
+  double estimate, least, most;
+};
+/// Of a sample; infinitely wide upwards of a single value. std::invalid_argument without values.
+ScatterInterval scatter_interval(const std::vector<double> &values);
+
 /// An estimated variance and its degrees of freedom. With zero degrees of freedom the variance is not known.
 struct Variance {
   double value, freedom;

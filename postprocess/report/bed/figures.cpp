@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "pages/figure_data.h"
+#include "report/bed/bands.h"
 #include "report/bed/snapshots.h"
 
 namespace drumlin::post {
@@ -49,16 +50,6 @@ void for_rows(const BedResult &result, TimeWindow window, const Visit &visit) {
   const std::vector<double> &time = result.run.history.time;
   for (std::size_t i = 0; i < time.size(); ++i)
     if (time[i] >= window.begin && time[i] <= window.end) visit(i);
-}
-
-/// What a run gives to a figure, row by row.
-template <std::size_t N>
-using Rows = std::vector<std::array<double, N>>;
-
-template <std::size_t N, std::size_t... I>
-void put_row(CurveTable &table, const std::string &name, const std::array<double, N> &row,
-             std::index_sequence<I...> /*columns*/) {
-  table.row(name, {row[I]...});
 }
 
 /// Amplitudes of the drum's acceleration at multiples of the frequency of the window, up to six times that of
@@ -103,10 +94,7 @@ public:
     state();
     energies();
     walls();
-    BedGroup first; // a picture has one bed
-    for (const Transition transition : group_.conditions())
-      first.runs.push_back(group_.under(transition).front());
-    plan_bed_pictures(first, stem_, section_, plan_);
+    plan_bed_pictures(group_, stem_, section_, plan_);
   }
 
 private:
@@ -121,41 +109,14 @@ private:
     plan_.figures.push_back(std::move(figure));
   }
 
-  /// Puts the rows of a condition's runs into a table: of one bed as they are, of several their means, and
-  /// the least and the largest of them as curves "A low" and "A high". The first `abscissas` columns are only
-  /// averaged.
+  /// Puts the rows of a condition's runs into a table, as put_beds() does.
   template <std::size_t N, class RowsOf>
   void put(CurveTable &table, Transition transition, std::size_t abscissas, const RowsOf &rows_of) const {
     const std::string label = transition_name(transition);
     std::vector<Rows<N>> beds;
-    std::size_t count = std::numeric_limits<std::size_t>::max();
-    for (const BedResult *run : group_.under(transition)) {
+    for (const BedResult *run : group_.under(transition))
       beds.push_back(rows_of(*run));
-      count = std::min(count, beds.back().size());
-    }
-    const auto all = std::make_index_sequence<N>();
-    if (beds.size() == 1) {
-      for (const auto &row : beds.front())
-        put_row(table, label, row, all);
-      return;
-    }
-    Rows<N> low(count), high(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      std::array<double, N> middle{};
-      for (std::size_t j = 0; j < N; ++j) {
-        low[i][j] = high[i][j] = beds.front()[i][j];
-        for (const Rows<N> &bed : beds) {
-          middle[j] += bed[i][j] / static_cast<double>(beds.size());
-          low[i][j] = std::min(low[i][j], bed[i][j]);
-          high[i][j] = std::max(high[i][j], bed[i][j]);
-        }
-        if (j < abscissas) low[i][j] = high[i][j] = middle[j];
-      }
-      put_row(table, label, middle, all);
-    }
-    for (const auto &[name, rows] : {std::pair{" low", &low}, std::pair{" high", &high}})
-      for (const auto &row : *rows)
-        put_row(table, label + name, row, all);
+    put_beds(table, label, beds, abscissas);
   }
   template <std::size_t N, class RowsOf>
   void put(CurveTable &table, std::size_t abscissas, const RowsOf &rows_of) const {
@@ -166,11 +127,8 @@ private:
   /// A curve of a condition, and what is thin beside it.
   void line(Panel &panel, const std::string &name, Transition transition, const std::string &x,
             const std::string &y, CurveStyle style, const std::string &title) const {
-    const std::string label = transition_name(transition);
-    panel.add(curve(stem_ + name, label, x, y, style), title);
-    if (group_.under(transition).size() == 1) return;
-    for (const char *side : {" low", " high"})
-      panel.add(curve(stem_ + name, label + side, x, y, CurveStyle::limit), "");
+    add_beds(panel, stem_ + name, transition_name(transition), group_.under(transition).size(), x, y, style,
+             title);
   }
   /// One curve for each condition.
   void curves(Panel &panel, const std::string &name, const std::string &x, const std::string &y,

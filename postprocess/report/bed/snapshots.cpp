@@ -14,6 +14,7 @@
 #include "bed/coarse_graining.h"
 #include "bed/dump_readers.h"
 #include "pages/figure_data.h"
+#include "report/bed/bands.h"
 
 namespace drumlin::post {
 
@@ -243,114 +244,202 @@ std::string picture_caption(Which which, const Scales &scales, bool by_contacts)
   return words + ". Open circles: the drum and, above it, the frame, which has a mass but touches no soil.";
 }
 
-/// Adds the solid fraction of the soil over the depth, between x = low and x = high (m), to a table. Returns
-/// the largest value.
-double put_profile(CurveTable &table, const std::string &label, const std::vector<Ball> &balls,
-                   const Bounds &soil, double low, double high, double diameter) {
+/// The soil of some instants of a run: where it lies, and the mean diameter of its balls [m].
+struct Soil {
+  Bounds bounds;
+  double diameter = 0.0;
+};
+
+Soil soil_of(const std::vector<const std::vector<Ball> *> &states) {
+  Soil soil;
+  double balls = 0.0;
+  for (const std::vector<Ball> *state : states)
+    for (const Ball &ball : *state) {
+      if (!is_soil(ball.type)) continue;
+      soil.bounds.add(ball);
+      soil.diameter += 2.0 * ball.radius;
+      balls += 1.0;
+    }
+  soil.diameter /= balls;
+  return soil;
+}
+
+/// Where the drum lies, one ball or a clump of many.
+Bounds drum_of(const std::vector<Ball> &balls) {
+  Bounds drum;
+  for (const Ball &ball : balls)
+    if (ball.type == drum_type) drum.add(ball);
+  return drum;
+}
+
+/// A zone from side to side, m.
+struct Zone {
+  double low, high;
+};
+
+/// Layers of soil in a zone, the lowest first.
+FieldGrid layers_of(const Soil &soil, Zone zone, bool flat) {
   FieldGrid grid;
-  grid.flat = in_a_plane(balls);
-  const double depth = soil.high[1] - soil.low[1];
-  grid.cells[1] = static_cast<std::size_t>(std::max(1.0, std::round(depth / (layer * diameter))));
-  grid.origin = {low, soil.low[1], grid.flat ? 0.0 : soil.low[2]};
-  grid.sides = {high - low, depth / static_cast<double>(grid.cells[1]),
-                grid.flat ? 1.0 : soil.high[2] - soil.low[2]};
-  const BedFields fields = coarse_grained(balls, {}, grid);
-  for (std::size_t c = 0; c < grid.cells[1]; ++c)
-    table.row(label, {depth - (static_cast<double>(c) + 0.5) * grid.sides[1], fields.solid_fraction[c]});
-  return *std::max_element(fields.solid_fraction.begin(), fields.solid_fraction.end());
+  grid.flat = flat;
+  const Bounds &in = soil.bounds;
+  const double depth = in.high[1] - in.low[1];
+  grid.cells[1] = static_cast<std::size_t>(std::max(1.0, std::round(depth / (layer * soil.diameter))));
+  grid.origin = {zone.low, in.low[1], flat ? 0.0 : in.low[2]};
+  grid.sides = {zone.high - zone.low, depth / static_cast<double>(grid.cells[1]),
+                flat ? 1.0 : in.high[2] - in.low[2]};
+  return grid;
+}
+
+/// A field over the depth below the highest ball, the uppermost layer first: beds of other depths have their
+/// surfaces in common. \param value of a cell of the grid
+template <class Value>
+Rows<2> over_depth(const FieldGrid &grid, const Value &value) {
+  Rows<2> rows;
+  for (std::size_t c = grid.cells[1]; c-- > 0;)
+    rows.push_back({(static_cast<double>(grid.cells[1] - 1 - c) + 0.5) * grid.sides[1], value(c)});
+  return rows;
+}
+
+/// The solid fraction of the soil over the depth, the mean of some zones of the same width.
+Rows<2> solid_fraction_of(const std::vector<Ball> &balls, const Soil &soil, const std::vector<Zone> &zones) {
+  Rows<2> rows;
+  for (const Zone &zone : zones) {
+    const FieldGrid grid = layers_of(soil, zone, in_a_plane(balls));
+    const BedFields fields = coarse_grained(balls, {}, grid);
+    const Rows<2> one = over_depth(grid, [&fields](std::size_t c) { return fields.solid_fraction[c]; });
+    if (rows.empty()) rows.assign(one.size(), {0.0, 0.0});
+    for (std::size_t i = 0; i < one.size(); ++i)
+      for (std::size_t j = 0; j < 2; ++j)
+        rows[i][j] += one[i][j] / static_cast<double>(zones.size());
+  }
+  return rows;
+}
+
+/// Below the drum, and beside it to both sides over half of its width; nothing where the box has no space.
+std::vector<Zone> zones_below(const Bounds &drum) { return {{drum.low[0], drum.high[0]}}; }
+std::vector<Zone> zones_beside(const Bounds &drum, const Bounds &soil) {
+  const double width = 0.5 * (drum.high[0] - drum.low[0]);
+  if (drum.low[0] - width < soil.low[0] || drum.high[0] + width > soil.high[0]) return {};
+  return {{drum.low[0] - width, drum.low[0]}, {drum.high[0], drum.high[0] + width}};
+}
+
+/// The views of each condition, B first.
+std::vector<std::vector<const Views *>> by_condition(const std::vector<Views> &all) {
+  std::vector<std::vector<const Views *>> found;
+  for (const Transition transition : {Transition::B, Transition::A}) {
+    std::vector<const Views *> under;
+    for (const Views &views : all)
+      if (views.result->run.transition() == transition) under.push_back(&views);
+    if (!under.empty()) found.push_back(under);
+  }
+  return found;
+}
+
+std::string name_of(const Views &views) { return transition_name(views.result->run.transition()); }
+
+/// What a caption says where several beds are drawn together.
+std::string beds_words(std::size_t most) {
+  return most < 2 ? ""
+                  : fmt::format(" Means over up to {} beds of a condition, and thin the least and the "
+                                "largest of them.",
+                                most);
 }
 
 void plan_profile(const std::vector<Views> &all, const std::string &stem, const std::string &section,
                   FigurePlan &plan) {
   const std::string name = stem + "profile";
   CurveTable table("depth (m),solid fraction (-)");
-  Panel whole{"across the whole box", "solid fraction (-)", "depth below the highest ball (m)", {}};
-  Panel below{"below the drum", "solid fraction (-)", "depth below the highest ball (m)", {}};
+  const char *axis = "solid fraction (-)", *depth = "depth below the highest ball (m)";
+  struct Place {
+    const char *name;
+    Panel panel;
+  };
+  std::array<Place, 3> places = {{{"whole", {"across the whole box", axis, depth, {}}},
+                                  {"below", {"below the drum", axis, depth, {}}},
+                                  {"beside", {"beside the drum", axis, depth, {}}}}};
   double densest = 0.0;
-  for (const Views &views : all) {
-    if (views.last.empty()) continue;
-    const std::string label = transition_name(views.result->run.transition());
-    const bool a = views.result->run.transition() == Transition::A;
-    Bounds soil;
-    double diameters = 0.0;
-    double balls = 0.0;
-    for (const std::vector<Ball> *state : {&views.views[settled]->balls, &views.last})
-      for (const Ball &ball : *state) {
-        if (!is_soil(ball.type)) continue;
-        soil.add(ball);
-        diameters += 2.0 * ball.radius;
-        balls += 1.0;
+  std::size_t most = 0;
+  for (const std::vector<const Views *> &under : by_condition(all)) {
+    const std::string label = name_of(*under.front());
+    const bool a = label == transition_name(Transition::A);
+    for (const bool after : {false, true})
+      for (Place &place : places) {
+        std::vector<Rows<2>> beds;
+        for (const Views *views : under) {
+          if (views->last.empty()) continue;
+          const std::vector<Ball> &before = views->views[settled]->balls;
+          const std::vector<Ball> &state = after ? views->last : before;
+          const Soil soil = soil_of({&before, &views->last});
+          if (soil.bounds.empty()) continue;
+          const Bounds drum = drum_of(state);
+          const std::string where = place.name;
+          std::vector<Zone> zones = {{soil.bounds.low[0], soil.bounds.high[0]}};
+          if (where != "whole" && drum.empty()) continue;
+          if (where == "below") zones = zones_below(drum);
+          if (where == "beside") zones = zones_beside(drum, soil.bounds);
+          if (!zones.empty()) beds.push_back(solid_fraction_of(state, soil, zones));
+        }
+        if (beds.empty()) continue;
+        const std::string when = after ? "after" : "before";
+        const std::string row = fmt::format("{} {} {}", label, when, place.name);
+        for (const std::array<double, 2> &one : put_beds(table, row, beds, 1))
+          densest = std::max(densest, one[1]);
+        most = std::max(most, beds.size());
+        const CurveStyle style = after ? (a ? CurveStyle::series_2 : CurveStyle::series_1)
+                                       : (a ? CurveStyle::series_5 : CurveStyle::series_3);
+        add_beds(place.panel, name, row, beds.size(), "$3", "2", style, fmt::format("{} {}", label, when));
       }
-    if (soil.empty()) continue;
-    const auto add = [&](const std::string &when, const std::vector<Ball> &state, CurveStyle style) {
-      const auto put = [&](Panel &panel, const std::string &where, double low, double high) {
-        const std::string row = fmt::format("{} {} {}", label, when, where);
-        densest = std::max(densest, put_profile(table, row, state, soil, low, high, diameters / balls));
-        panel.add(curve(name, row, "$3", "2", style), fmt::format("{} {}", label, when));
-      };
-      put(whole, "whole", soil.low[0], soil.high[0]);
-      Bounds drum; // one ball or a clump of many
-      for (const Ball &ball : state)
-        if (ball.type == drum_type) drum.add(ball);
-      if (!drum.empty()) put(below, "below", drum.low[0], drum.high[0]);
-    };
-    add("before", views.views[settled]->balls, a ? CurveStyle::series_5 : CurveStyle::series_3);
-    add("after", views.last, a ? CurveStyle::series_2 : CurveStyle::series_1);
   }
-  if (whole.curves.empty()) return;
+  if (most == 0) return;
   PageFigure figure{section, "", "", {}, table.text()};
   figure.figure = {name, "Solid fraction over the depth", {}, 2};
-  for (Panel *panel : {&whole, &below}) {
-    if (panel->curves.empty()) continue;
-    panel->y_range = "[*:*] reverse";
-    panel->x_range = axis_range(0.8 * densest, 1.03 * densest); // the changes are small
-    figure.figure.panels.push_back(*panel);
+  for (Place &place : places) {
+    if (place.panel.curves.empty()) continue;
+    place.panel.y_range = "[*:*] reverse";
+    place.panel.x_range = axis_range(0.8 * densest, 1.03 * densest); // the changes are small
+    figure.figure.panels.push_back(place.panel);
   }
   figure.caption =
       fmt::format("Solid fraction: area (in three dimensions volume) of the soil balls over that of the "
                   "layer, at the first dump (before) and at the last (after), in layers of about {:g} mean "
-                  "diameters. Left: across the whole box; right: below the drum. Layers that hold air or a "
-                  "part of the drum lie outside of the scale; the CSV file has them.",
-                  layer);
+                  "diameters: across the whole box, below the drum, and, where the box has space, beside it "
+                  "over half of its width on both sides. Layers that hold air or a part of the drum lie "
+                  "outside of the scale; the CSV file has them.{}",
+                  layer, beds_words(most));
   plan.figures.push_back(std::move(figure));
 }
 
-/// The vertical stress below the drum over the depth, at the largest force.
+/// The vertical stress below the drum over the depth, at the largest force; nothing without contacts.
+Rows<2> stress_below(const Views &views) {
+  if (!views.views[peak] || !views.views[peak]->has_contacts) return {};
+  const Instant &instant = *views.views[peak];
+  const Soil soil = soil_of({&instant.balls});
+  const Bounds drum = drum_of(instant.balls);
+  if (soil.bounds.empty() || drum.empty()) return {};
+  const FieldGrid grid = layers_of(soil, zones_below(drum).front(), in_a_plane(instant.balls));
+  if (grid.cells[1] < 2) return {};
+  const BedFields fields = coarse_grained(instant.balls, instant.contacts.balls, grid);
+  constexpr std::size_t vertical = 4; // yy
+  return over_depth(grid, [&fields](std::size_t c) { return fields.stress[c][vertical]; });
+}
+
 void plan_stress(const std::vector<Views> &all, const std::string &stem, const std::string &section,
                  FigurePlan &plan) {
   const std::string name = stem + "stress";
   CurveTable table("depth (m),vertical stress (Pa)");
   Panel panel{"Stress below the drum", "vertical stress (kPa)", "depth below the highest ball (m)", {}};
-  for (const Views &views : all) {
-    if (!views.views[peak] || !views.views[peak]->has_contacts) continue;
-    const Instant &instant = *views.views[peak];
-    const Transition transition = views.result->run.transition();
-    Bounds soil, drum;
-    double diameters = 0.0, balls = 0.0;
-    for (const Ball &ball : instant.balls) {
-      if (ball.type == drum_type) drum.add(ball);
-      if (!is_soil(ball.type)) continue;
-      soil.add(ball);
-      diameters += 2.0 * ball.radius;
-      balls += 1.0;
-    }
-    if (soil.empty() || drum.empty()) continue;
-    FieldGrid grid;
-    grid.flat = in_a_plane(instant.balls);
-    const double depth = soil.high[1] - soil.low[1];
-    grid.cells[1] = static_cast<std::size_t>(std::max(1.0, std::round(depth * balls / (layer * diameters))));
-    grid.origin = {drum.low[0], soil.low[1], grid.flat ? 0.0 : soil.low[2]};
-    grid.sides = {drum.high[0] - drum.low[0], depth / static_cast<double>(grid.cells[1]),
-                  grid.flat ? 1.0 : soil.high[2] - soil.low[2]};
-    if (grid.cells[1] < 2) continue;
-    const BedFields fields = coarse_grained(instant.balls, instant.contacts.balls, grid);
-    constexpr std::size_t vertical = 4; // yy
-    for (std::size_t c = 0; c < grid.cells[1]; ++c)
-      table.row(transition_name(transition),
-                {depth - (static_cast<double>(c) + 0.5) * grid.sides[1], fields.stress[c][vertical]});
-    panel.add(curve(name, transition_name(transition), "($3*1e-3)", "2",
-                    transition == Transition::A ? CurveStyle::series_2 : CurveStyle::series_1),
-              "condition " + transition_name(transition));
+  std::size_t most = 0;
+  for (const std::vector<const Views *> &under : by_condition(all)) {
+    std::vector<Rows<2>> beds;
+    for (const Views *views : under)
+      if (Rows<2> rows = stress_below(*views); !rows.empty()) beds.push_back(std::move(rows));
+    if (beds.empty()) continue;
+    const std::string label = name_of(*under.front());
+    put_beds(table, label, beds, 1);
+    most = std::max(most, beds.size());
+    add_beds(panel, name, label, beds.size(), "($3*1e-3)", "2",
+             label == transition_name(Transition::A) ? CurveStyle::series_2 : CurveStyle::series_1,
+             "condition " + label);
   }
   if (panel.curves.empty()) return;
   panel.x_range = "[0:*]";
@@ -360,9 +449,9 @@ void plan_stress(const std::vector<Views> &all, const std::string &stem, const s
       "",
       fmt::format("Vertical stress in the soil over the width of the drum, at the dump with the largest "
                   "force on it, in layers of about {:g} mean diameters: force and branch of the contacts "
-                  "between balls over the volume. It is that of one bed at one instant. The contacts of "
-                  "the drum and of the walls do not count, so that the outermost layers have too little.",
-                  layer),
+                  "between balls over the volume. The contacts of the drum and of the walls do not count, "
+                  "so that the outermost layers have too little.{}",
+                  layer, most < 2 ? " It is that of one bed at one instant." : beds_words(most)),
       {},
       table.text()};
   figure.figure = {name, panel.title, {panel}, 1};
@@ -384,32 +473,42 @@ std::pair<int, double> drum_contact(const Instant &instant) {
   return {count, count > 0 ? high - low : 0.0};
 }
 
-/// Number and width of the drum's contacts in the last cycles that have dumps.
+/// Number and width of the drum's contacts in the last cycles that have dumps: time [s], number, width [m].
+Rows<3> drum_contacts(const BedResult &result) {
+  constexpr double cycles = 2.0;
+  const Run &run = result.run;
+  const std::map<long, StepDump> steps = dumped_steps(run.folder / "dump");
+  const double from =
+      static_cast<double>(steps.rbegin()->first) * run.timestep - (cycles + 1e-6) * run.chain.period();
+  Rows<3> rows;
+  for (const auto &[step, dump] : steps) {
+    if (static_cast<double>(step) * run.timestep < from || dump.contacts.empty()) continue;
+    const Instant instant = read_instant(result, step, dump);
+    const auto [balls, apart] = drum_contact(instant);
+    rows.push_back({instant.time, static_cast<double>(balls), apart});
+  }
+  return rows;
+}
+
 void plan_drum_contact(const std::vector<Views> &all, const std::string &stem, const std::string &section,
                        FigurePlan &plan) {
-  constexpr double cycles = 2.0;
   const std::string name = stem + "contact";
   CurveTable table("time (s),touching balls (-),contact width (m)");
   Panel count{"balls that touch the drum", "time (s)", "balls that touch the drum (-)", {}};
   Panel width{"contact width", "time (s)", "width of the contact (mm)", {}};
-  for (const Views &views : all) {
-    const Run &run = views.result->run;
-    const std::string label = transition_name(run.transition());
-    const std::map<long, StepDump> steps = dumped_steps(run.folder / "dump");
-    const double from =
-        static_cast<double>(steps.rbegin()->first) * run.timestep - (cycles + 1e-6) * run.chain.period();
-    std::size_t rows = 0;
-    for (const auto &[step, dump] : steps) {
-      if (static_cast<double>(step) * run.timestep < from || dump.contacts.empty()) continue;
-      const Instant instant = read_instant(*views.result, step, dump);
-      const auto [balls, apart] = drum_contact(instant);
-      table.row(label, {instant.time, static_cast<double>(balls), apart});
-      ++rows;
-    }
-    if (rows == 0) continue;
-    const CurveStyle style = run.transition() == Transition::A ? CurveStyle::series_2 : CurveStyle::series_1;
-    count.add(curve(name, label, "$2", "3", style), "condition " + label);
-    width.add(curve(name, label, "$2", "($4*1e3)", style), "condition " + label);
+  std::size_t most = 0;
+  for (const std::vector<const Views *> &under : by_condition(all)) {
+    std::vector<Rows<3>> beds;
+    for (const Views *views : under)
+      if (Rows<3> rows = drum_contacts(*views->result); !rows.empty()) beds.push_back(std::move(rows));
+    if (beds.empty()) continue;
+    const std::string label = name_of(*under.front());
+    put_beds(table, label, beds, 1);
+    most = std::max(most, beds.size());
+    const CurveStyle style =
+        label == transition_name(Transition::A) ? CurveStyle::series_2 : CurveStyle::series_1;
+    add_beds(count, name, label, beds.size(), "$2", "3", style, "condition " + label);
+    add_beds(width, name, label, beds.size(), "$2", "($4*1e3)", style, "condition " + label);
   }
   if (count.curves.empty()) return;
   count.y_range = width.y_range = "[0:*]";
@@ -418,7 +517,8 @@ void plan_drum_contact(const std::vector<Views> &all, const std::string &stem, c
       "",
       "How many soil balls touch the drum, and the distance between the outermost contacts, in the "
       "dumps of the last two cycles that have any. With one ball the width is 0: a drum stands on few "
-      "stones, which is why its force scatters from bed to bed.",
+      "stones, which is why its force scatters from bed to bed." +
+          beds_words(most),
       {},
       table.text()};
   figure.figure = {name, "Contact of drum and soil", {count, width}, 2};
@@ -429,15 +529,18 @@ void plan_drum_contact(const std::vector<Views> &all, const std::string &stem, c
 
 void plan_bed_pictures(const BedGroup &group, const std::string &stem, const std::string &section,
                        FigurePlan &plan) {
-  std::vector<Views> all;
+  std::vector<Views> every; // bed
   for (const BedResult *result : group.runs) {
     if (std::optional<Views> views = read_views(*result))
-      all.push_back(std::move(*views));
-    else
+      every.push_back(std::move(*views));
+    else if (result == group.under(result->run.transition()).front())
       plan.absent.push_back({section, "The picture of " + result->run.name,
                              "the run has no dumps; run it with -var dumps_per_cycle 10 to get them"});
   }
-  if (all.empty()) return;
+  if (every.empty()) return;
+  std::vector<Views> all; // that have a picture: one bed of each condition
+  for (const std::vector<const Views *> &under : by_condition(every))
+    all.push_back(*under.front());
   const Scales scales = scales_of(all);
   constexpr std::array<std::pair<const char *, const char *>, instants> names = {
       {{"settled", "The bed at rest"},
@@ -466,9 +569,9 @@ void plan_bed_pictures(const BedGroup &group, const std::string &stem, const std
     if (which == peak) figure.weight = peak_weight;
     plan.figures.push_back(std::move(figure));
   }
-  plan_profile(all, stem, section, plan);
-  plan_stress(all, stem, section, plan);
-  plan_drum_contact(all, stem, section, plan);
+  plan_profile(every, stem, section, plan);
+  plan_stress(every, stem, section, plan);
+  plan_drum_contact(every, stem, section, plan);
 }
 
 } // namespace drumlin::post

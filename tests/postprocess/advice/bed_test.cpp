@@ -5,11 +5,13 @@
 #include "support/files.h"
 #include "support/usage_error.h"
 #include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -137,6 +139,60 @@ TEST_F(BedAdviceTest, RefusesWhatTheTableDoesNotAnswer) {
     if (row.quantity == "force") row.value -= 1e5;
   expect_refused(
       "--question is 'force'; allowed: a result whose mean over the complete beds differs from zero");
+}
+
+// Forces of 80 to 120 kN/m, +- 10 % and +- 0, and of +- 20 kN/m about zero.
+TEST_F(BedAdviceTest, CountsTheBedsOfEachScene) {
+  add("complete", 1.0, 0.0, 10.0);
+  add("k / 10", 1.0, 0.0, 3.0);
+  for (int seed = 1; seed <= 4; ++seed)
+    rows_.push_back({"A", seed, "force", "N/m", 2e5, 9.0});
+  for (int seed = 1; seed <= 5; ++seed)
+    rows_.push_back({"history", seed, "force", "N/m", 1e4 * (seed - 3), 1.0});
+  add("one size", 1.0, 0.0, 0.1, 1);
+  const BedExperiment all = experiment();
+  const std::vector<post::SceneScatter> found = post::scatter_of_scenes(all, {"force", "force", 0.1});
+  ASSERT_EQ(found.size(), 4U); // one seed has no scatter
+  EXPECT_EQ(found[0].scene->name, "A");
+  EXPECT_EQ(found[0].seeds, 4U);
+  EXPECT_EQ(found[0].beds, 2);
+  EXPECT_EQ(found[0].total_s(), 18.0);
+  EXPECT_EQ(found[1].scene->name, "k / 10");
+  EXPECT_NEAR(found[1].mean.mean, 1e5, 1e-6);
+  EXPECT_NEAR(found[1].scatter.estimate, 1e4 * std::sqrt(2.5), 1e-6);
+  EXPECT_EQ(found[1].beds, 13); // as of the complete scene, see above
+  EXPECT_EQ(found[1].total_s(), 39.0);
+  // The interval of the scatter is 0.599 to 2.874 times it (chi squared of 4 degrees of freedom: 11.143 and
+  // 0.484): 9.47 % gives 2.447 * 0.0947 / sqrt(7) = 0.0876 and 2.571 * 0.0947 / sqrt(6) = 0.0994; 45.4 %
+  // gives 1.990 * 0.454 / sqrt(82) = 0.0999 and 1.990 * 0.454 / sqrt(81) = 0.1004.
+  EXPECT_EQ(found[1].least_beds, 6);
+  EXPECT_EQ(found[1].most_beds, 82);
+  EXPECT_EQ(found[2].scene->name, "complete");
+  EXPECT_EQ(found[3].scene->name, "history"); // no error relative to a mean of zero
+  EXPECT_EQ(found[3].beds, 0);
+  const std::vector<post::SceneScatter> absolute =
+      post::scatter_of_scenes(all, {"force", "force", 1e4, true});
+  EXPECT_EQ(absolute[0].scene->name, "history");
+  EXPECT_EQ(absolute[0].beds, 13);
+}
+
+// A layer of sizes of its own is that of the command which the advice prints, bit for bit.
+TEST_F(BedAdviceTest, NamesTheCommandsOfLayersOfOtherSizes) {
+  post::write_files({{temporary_.path() / "own.plan",
+                      "title T\nquantity force\ndeck bed/in.bed\nballs 50\nwidth 0.6\nscene a\n"
+                      "layer 0.2\nlayer 0.1 20-30\nradius_min 0.02\nradius_max 0.03\n"}});
+  const post::Plan plan = post::read_plan(temporary_.path() / "own.plan");
+  const post::Scene &scene = plan.scenes.front();
+  const std::string command = post::scene_commands(scene)[0];
+  EXPECT_EQ(command, "bed --layer 0.2 --layer 0.1:20-30:20 --width 0.6 --radius-min 0.02 --radius-max 0.03");
+  std::vector<std::string> words = {DRUMLIN_TOOLS};
+  std::istringstream in(command);
+  for (std::string word; in >> word;)
+    words.push_back(word);
+  const Outcome outcome = run_program(words, {}, temporary_.path(), 100.0);
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_EQ(post::read_text(temporary_.path() / "results/bed/balls.data"),
+            post::bed_data(scene.bed->layers, post::soil_density, post::pack_layers(scene.bed->layers)));
 }
 
 // The copy of the plan that its study writes.

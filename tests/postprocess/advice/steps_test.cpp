@@ -188,6 +188,11 @@ TEST_F(AdviseCommand, TakesTheErrorOfASettlementInMillimetres) {
   EXPECT_EQ(wide.output.find("k / 10: "), 0u) << wide.output;
   EXPECT_TRUE(printed(wide, {"within 0.6 mm", "error      +0.5 +- 0.0 mm against the complete scene",
                              "differs from another by 1.6 mm"}));
+  // One bed differs by 1.58 mm, with the interval 0.947 to 4.54 mm (chi squared 11.14 and 0.484): 2.045
+  // * 1.58 / sqrt(30) = 0.590 and 2.048 * 1.58 / sqrt(29) = 0.601; 2.179 * 0.947 / sqrt(13) = 0.572 and 2.201
+  // * 0.947 / sqrt(12) = 0.602; (1.971 * 4.54 / 0.6)^2 = 222.6.
+  EXPECT_TRUE(printed(wide, {"k / 10: 30 (13 to 223) x 3 s = 90 s; 0.5 +- 2.0 mm, one bed +- 1.6 (5 seeds)",
+                             "complete: 30 (13 to 223) x 10 s = 300 s;"}));
   EXPECT_EQ(narrow.output.find("complete: "), 0u) << narrow.output;
   EXPECT_TRUE(printed(narrow, "'k / 10' keeps to 0.5 mm"));
 }

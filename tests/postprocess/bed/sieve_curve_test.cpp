@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -21,6 +22,7 @@ namespace drumlin::test {
 namespace {
 
 using post::BallNumbers;
+using post::curve_between;
 using post::GrainSizes;
 using post::PackedBall;
 using post::Packing;
@@ -122,6 +124,16 @@ TEST(SieveCurve, IsAStraightLineOverTheLogarithmOfTheSize) {
   EXPECT_NEAR(sizes.uniformity(), 8.0 * std::pow(4.0, 1.0 / 3.0), 1e-12);
   EXPECT_NEAR(sizes.curvature(), std::pow(4.0, 4.0 / 3.0) / sizes.uniformity(), 1e-12);
   EXPECT_NEAR(curve.size(0.4), 4e-3, 1e-15); // the smallest of all sizes in the gap
+}
+
+TEST(SieveCurve, OfTwoSizesIsAStraightLineBetweenThem) {
+  const std::optional<SieveCurve> curve = curve_between("32-48");
+  ASSERT_TRUE(curve);
+  EXPECT_DOUBLE_EQ(curve->smallest(), 0.032);
+  EXPECT_DOUBLE_EQ(curve->largest(), 0.048);
+  EXPECT_NEAR(curve->passing(std::sqrt(0.032 * 0.048)), 0.5, 1e-12);
+  for (const char *text : {"", "32", "48-32", "32-32", "0-48", "-1-48", "a-48", "32-b", "32-", "1-1e9"})
+    EXPECT_FALSE(curve_between(text)) << text;
 }
 
 TEST(SieveCurve, WithoutItsFinesKeepsTheProportionsOfTheRest) {

@@ -124,6 +124,7 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
                                        "least as thick as its largest ball"},
       {"bed --layer 0.05:WMM:20", "--layer is '0.05'; allowed: a number from 0.053"},
       {"bed --layer 0.2:sand", "--layer is 'sand'; allowed: a CSV file with the columns"},
+      {"bed --layer 0.2:48-32", "--layer is '48-32'; allowed: a CSV file with the columns"},
       {"bed --layer 0.2:WMM:60", "--layer is '60'; allowed: a number from 0.075 and below 53 [mm]"},
       {"bed --layer 0.2:WMM:20:1", "--layer is '0.2:WMM:20:1'; allowed: THICKNESS[:SIEVE[:CUT]]"},
       {"bed --layer 0.2 --height 1", "--layer is '0.2'; allowed: without --height"},

@@ -323,7 +323,7 @@ TEST(BedStudy, RunsInBothEngines) {
 // One seed of each scene: no deck refuses a variable that a plan gives it.
 TEST(BedStudy, RunsEverySceneOfTheProjectsPlans) {
   const Scratch scratch;
-  for (const char *study : {"fidelity", "friction", "stiffness"}) {
+  for (const char *study : {"fidelity", "friction", "stiffness", "damping", "scatter"}) {
     std::string plan = post::read_text(post::input_file("study") / study / "plan");
     plan = std::regex_replace(plan, std::regex("\nseeds +[0-9]+"), "\nseeds 1");
     plan = std::regex_replace(plan, std::regex("\nset_run +cycles +[0-9]+"), "\nset_run cycles 4");

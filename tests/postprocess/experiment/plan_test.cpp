@@ -178,6 +178,27 @@ TEST_F(PlanTest, GivesEachDeckOfABedItsVariables) {
   EXPECT_FALSE(shared.can_be_scaled()); // the roller's other variables are those of the deck
 }
 
+// Contacts that yield are stiffer in unloading, and layers of finer discs need the steps of the finest.
+TEST_F(PlanTest, MakesStepsForTheStiffestAndSmallestContacts) {
+  const Plan plan = read("title T\nquantity force\ndeck bed/in.bed\nballs 100\nwidth 2\nstiffness 1e9\n"
+                         "scene plain\nscene yields\nfrom plain\nset yield 4\n"
+                         "scene wrong\nfrom plain\nset yield none\n"
+                         "scene layers\nfrom plain\nlayer 0.7\nlayer 0.3 16-24\nradius_min 0.032\n"
+                         "radius_max 0.048\n");
+  EXPECT_EQ(post::value_of(plan.scene("plain"), "dt"), "6.25e-06");
+  EXPECT_EQ(post::value_of(plan.scene("yields"), "dt"), "3.125e-06");
+  EXPECT_EQ(post::value_of(plan.scene("yields"), "steps_per_cycle"), "16000");
+  EXPECT_EQ(post::value_of(plan.scene("wrong"), "dt"), "6.25e-06"); // which the decks refuse
+  const Scene &layers = plan.scene("layers");
+  EXPECT_EQ(post::value_of(layers, "dt"), "3.125e-06"); // of discs of 8 mm radius
+  ASSERT_EQ(layers.bed->layers.size(), 2U);
+  EXPECT_EQ(layers.bed->layers[0].packing.smallest_radius(), 0.032);
+  EXPECT_EQ(layers.bed->layers[1].packing.smallest_radius(), 0.008);
+  EXPECT_EQ(layers.bed->layers[1].packing.balls, post::balls_of(layers.bed->layers[1]));
+  EXPECT_GT(layers.bed->layers[1].packing.balls, 4 * layers.bed->layers[0].packing.balls);
+  EXPECT_NE(post::soil_text(layers), post::soil_text(plan.scene("plain")));
+}
+
 TEST_F(PlanTest, RefusesEachBadLine) {
   const std::string own = "title T\nquantity gap m last out.csv gap\ndeck in.own\n";
   const std::string bed = "title T\nquantity force\ndeck bed/in.bed\nballs 100\nwidth 0.4\n";
@@ -278,6 +299,12 @@ TEST_F(PlanTest, RefusesEachBadLine) {
   expect_refused(bed + "grading fine\n", ", line 6: grading is 'fine'; allowed: uniform, mass");
   expect_refused(bed + "layer 0.01\nscene a\n",
                  ", line 7: scene is 'a'; allowed: a bed of which layer is '0.01'");
+  expect_refused(bed + "layer 0.3 48-32\n",
+                 ", line 6: layer is '0.3 48-32'; allowed: a number from 1e-06 to 100000 [m], and behind it "
+                 "nothing or the smallest and the largest size, in mm, as 32-48");
+  expect_refused(bed + "layer 0.3 16 24\n", ", line 6: layer is '0.3 16 24'; allowed: a number from ");
+  expect_refused(bed + "layer thick\n", ", line 6: layer is 'thick'; allowed: a number from ");
+  expect_refused(bed + "layer 0\n", ", line 6: layer is '0'; allowed: a number from ");
   expect_refused(bed + "depth 0.2\nstiffness 1e8\nscene a\n",
                  ", line 8: scene is 'a'; allowed: stiffness and layer on a bed in the plane");
   expect_refused(
@@ -308,7 +335,7 @@ TEST(PlansOfTheProject, AreCompleteAndHaveTheResultsBesideThem) {
   EXPECT_EQ(runs("stiffness"), 8U * 5U);
   EXPECT_EQ(runs("box"), 3U * 6U + 10U * 3U);
   EXPECT_EQ(runs("suction"), 9U * 5U);
-  for (const char *study : {"fidelity", "box", "friction", "stiffness"}) {
+  for (const char *study : {"fidelity", "box", "friction", "stiffness", "damping", "scatter"}) {
     const Plan plan = plan_of(study);
     EXPECT_TRUE(plan.can_be_scaled()) << study;
     EXPECT_FALSE(plan.comparisons.empty()) << study;
@@ -359,6 +386,8 @@ TEST(PlansOfTheProject, KeepTheProportionsOfABedOfAnotherSize) {
   EXPECT_EQ(small.scene("large balls").bed->packing.balls, 156);
   EXPECT_NEAR(small.scene("layers").bed->balls(), 625, 25); // as deep as the complete bed
   EXPECT_EQ(plan_of("fidelity").with_balls(2500).scene("absorb").bed->packing.width, 2.0);
+  // Stresses go with the lengths, and so does the attraction of balls that stay as large as they are.
+  EXPECT_EQ(post::value_of(plan_of("damping").with_balls(150).scene("base rigid"), "suction"), "500");
   // Four scenes differ once the soil of the complete one has settled, and share it.
   int sharing = 0;
   for (const Scene &scene : small.scenes)

@@ -64,6 +64,47 @@ TEST(Quantities, OfABedAreOfTheSecondHalfAndPerMetreOfWidth) {
   EXPECT_EQ(space[0], plane[0]);
 }
 
+// What counts is from the end of the second cycle to that of the fourth: the exciter does 60 J, bed and
+// roller release 20 J, and 80 J leave.
+TEST(Quantities, SharesOfTheHeatOfABedAddUpToOne) {
+  const post::TemporaryFolder temporary(testing::TempDir(), "shares");
+  const auto values = [&](const std::string &header, const std::string &last, double width) {
+    post::write_files({{temporary.path() / "cycles.csv", header + last}});
+    return values_of(
+        {"radiation", "friction", "dashpots", "yielding", "bond", "released", "energy_error", "work"},
+        temporary.path(), width);
+  };
+  const std::string header = "work_excitation,kinetic,potential,stored_contact,stored_bond,stored_ground,"
+                             "dissipated_contact,dissipated_bond,dissipated_friction,dissipated_ground,"
+                             "dissipated_yield\n"
+                             "0,1,0,2,0,0,0,0,0,0,0\n"
+                             "10,7,0,0,0,0,1,1,1,2,0\n"
+                             "40,9,1,2,3,4,4,4,4,6,6\n"
+                             "50,9,1,2,3,4,5,5,5,5,5\n";
+  // Stores fall from 19 J to -1 J; heats rise by 8, 4, 40, 20 and 8 J.
+  const std::vector<double> found = values(header, "100,1,-2,0,0,0,12,8,44,26,14\n", 2.0);
+  const std::vector<double> shares = {0.25, 0.5, 0.1, 0.1, 0.05};
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    EXPECT_NEAR(found[i], shares[i], 1e-15) << i;
+  EXPECT_NEAR(found[5], 20.0 / 60.0, 1e-15);
+  // Since the start: stores 3 J to -1 J, 104 J of heat, 100 J of work.
+  EXPECT_NEAR(found[6], (-4.0 + 104.0) / 100.0 - 1.0, 1e-15);
+  EXPECT_NEAR(found[7], 15.0, 1e-15); // per cycle and metre
+  // Between rigid walls, without yielding.
+  const std::string plain = "work_excitation,kinetic,potential,stored_contact,stored_bond,dissipated_contact,"
+                            "dissipated_bond,dissipated_friction\n0,0,0,0,0,0,0,0\n";
+  const std::vector<double> rigid = values(plain, "8,0,0,0,0,2,1,6\n", 1.0);
+  EXPECT_EQ(rigid[0], 0.0);
+  EXPECT_NEAR(rigid[1], 6.0 / 9.0, 1e-15);
+  EXPECT_EQ(rigid[3], 0.0);
+  EXPECT_NEAR(rigid[6], 1.0 / 8.0, 1e-15);
+  // An exciter without force, a bed without heat.
+  const std::vector<double> still = values(plain, "0,0,0,0,0,0,0,0\n", 1.0);
+  for (std::size_t i = 0; i < 7; ++i)
+    EXPECT_TRUE(std::isnan(still[i])) << i;
+  EXPECT_THROW(values(plain, "", 1.0), std::runtime_error);
+}
+
 TEST(Quantities, OfAnyTableAreAColumnInFiveWays) {
   const post::TemporaryFolder temporary(testing::TempDir(), "quantities");
   post::write_files({{temporary.path() / "out.csv", "t,gap\n0,7\n1,-2\n2,4\n3,1\n"},

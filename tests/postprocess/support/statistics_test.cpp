@@ -53,6 +53,26 @@ TEST(MeanInterval, OfOneValueIsInfinite) {
   EXPECT_THROW(mean_interval({}), std::invalid_argument);
 }
 
+// 1 and -1 in turn have a variance of n/(n - 1); printed tables of chi squared for n - 1 degrees of freedom
+// have 2.5 % and 97.5 % at these values.
+TEST(ScatterInterval, HasTheFactorsOfPrintedTables) {
+  struct Row {
+    int n;
+    double lower, upper;
+  };
+  for (const auto &[n, lower, upper] : {Row{2, 0.000982, 5.024}, {6, 0.831, 12.833}, {12, 3.816, 21.920}}) {
+    std::vector<double> values(static_cast<std::size_t>(n), 1.0);
+    for (std::size_t i = 1; i < values.size(); i += 2)
+      values[i] = -1.0;
+    const ScatterInterval scatter = scatter_interval(values);
+    EXPECT_NEAR(scatter.estimate, std::sqrt(n / (n - 1.0)), 1e-12) << n;
+    EXPECT_NEAR(scatter.least, std::sqrt(n / upper), 1e-4) << n;
+    EXPECT_NEAR(scatter.most / std::sqrt(n / lower), 1.0, 1e-3) << n;
+  }
+  EXPECT_TRUE(std::isinf(scatter_interval({5.0}).most));
+  EXPECT_THROW(scatter_interval({}), std::invalid_argument);
+}
+
 // Samples with a whole number of degrees of freedom in Welch's formula, (a + b)^2 / (a^2/m + b^2/n), where a
 // and b are the squared standard errors of the means and m and n their degrees of freedom: 2 if a = b and m =
 // n = 1; m if b = 0; and 9 / (1 + 4/2) = 3 if a = 1, m = 1, b = 2, n = 2.

@@ -56,6 +56,36 @@ protected:
 
   void write_dumps(const std::string &name) const { test::write_bed_dumps(root / name); }
 
+  /// Dumps of eight discs of 1 m one above the other, which carry a drum 4 m wide.
+  void write_column(const std::string &name, double force) const {
+    std::string places, zeros, ids, types, radii, masses, contacts;
+    for (int n = 1; n <= 9; ++n) {
+      places += fmt::format("2 {} 0 ", n < 9 ? n - 0.5 : 10.0);
+      zeros += "0 0 0 ";
+      ids += fmt::format("{} ", n);
+      types += n < 9 ? "1 " : "2 ";
+      radii += n < 9 ? "0.5 " : "2 ";
+      masses += "1 ";
+      if (n < 9) contacts += fmt::format("{} {} 0 -{} 0 0 -1 0 1e-9\n", n, n + 1, force);
+    }
+    const std::vector<test::Array> arrays = {{"id", 1, ids},      {"type", 1, types}, {"radius", 1, radii},
+                                             {"mass", 1, masses}, {"v", 3, zeros},    {"omega", 3, zeros},
+                                             {"f", 3, zeros}};
+    for (const char *step : {"0", "700", "800"}) {
+      put(fmt::format("{}/dump/balls_{}.vtp", name, step), test::point_data(9, places, arrays));
+      put(fmt::format("{}/dump/contacts_{}.dump", name, step), test::contact_dump(contacts));
+    }
+  }
+
+  /// A run as B on a bed of another seed.
+  void write_another_seed(const std::string &name, const std::string &d50) const {
+    write_run(name, Transition::B);
+    std::string parameters = read_text(root / name / "parameters.csv");
+    parameters.replace(parameters.find("start,"), 6, "start," + name);
+    parameters.replace(parameters.find("d50,0.0301"), 10, "d50," + d50);
+    put(name + "/parameters.csv", parameters + "out,results/" + name + "\n");
+  }
+
   BedResult result(const std::string &name) const {
     auto run = drumlin::post::read_run(root / name);
     run.name = name;
@@ -293,11 +323,7 @@ TEST_F(BedReport, ShowsSeveralSeedsAsMeanAndBand) {
   std::vector<BedResult> beds = {result("B"), result("A")};
   for (const auto &[name, factor, d50] :
        {std::tuple{"second", 1.1, "0.0302"}, std::tuple{"third", 1.3, "0.0303"}}) {
-    write_run(name, Transition::B);
-    std::string parameters = read_text(root / name / "parameters.csv");
-    parameters.replace(parameters.find("start,"), 6, std::string("start,") + name);
-    parameters.replace(parameters.find("d50,0.0301"), 10, std::string("d50,") + d50);
-    put(std::string(name) + "/parameters.csv", parameters + "out,results/" + name + "\n");
+    write_another_seed(name, d50);
     beds.push_back(result(name));
     for (double &force : beds.back().run.history.F_contact)
       force *= factor;
@@ -418,23 +444,7 @@ TEST_F(BedReport, ShowsTheBedAtRestAndAtTheExtremesOfTheForce) {
 // width of the drum, 4 m, the stress of the seven contacts between them has the mean 7 * 400 N * 1 m / (4 * 2
 // m * 4 m).
 TEST_F(BedReport, DrawsTheStressBelowTheDrum) {
-  std::string places, zeros, ids, types, radii, masses, contacts;
-  for (int n = 1; n <= 9; ++n) {
-    places += fmt::format("2 {} 0 ", n < 9 ? n - 0.5 : 10.0);
-    zeros += "0 0 0 ";
-    ids += fmt::format("{} ", n);
-    types += n < 9 ? "1 " : "2 ";
-    radii += n < 9 ? "0.5 " : "2 ";
-    masses += "1 ";
-    if (n < 9) contacts += fmt::format("{} {} 0 -400 0 0 -1 0 1e-9\n", n, n + 1);
-  }
-  const std::vector<test::Array> arrays = {{"id", 1, ids},      {"type", 1, types}, {"radius", 1, radii},
-                                           {"mass", 1, masses}, {"v", 3, zeros},    {"omega", 3, zeros},
-                                           {"f", 3, zeros}};
-  for (const char *step : {"0", "700", "800"}) {
-    put(fmt::format("A/dump/balls_{}.vtp", step), test::point_data(9, places, arrays));
-    put(fmt::format("A/dump/contacts_{}.dump", step), test::contact_dump(contacts));
-  }
+  write_column("A", 400.0);
   const std::vector<BedResult> beds = {result("A")};
   put("stress.csv", figure_of(plan_bed_figures(group_beds(beds)), "bed1_stress").csv);
   const Table table = read_table(root / "stress.csv");
@@ -442,7 +452,68 @@ TEST_F(BedReport, DrawsTheStressBelowTheDrum) {
   ASSERT_EQ(stress.size(), 4U);
   EXPECT_NEAR(std::accumulate(stress.begin(), stress.end(), 0.0) / 4.0, 7.0 * 400.0 / (4.0 * 2.0 * 4.0),
               1e-3);
-  EXPECT_EQ(table.numbers("depth (m)"), (std::vector<double>{7.0, 5.0, 3.0, 1.0}));
+  EXPECT_EQ(table.numbers("depth (m)"), (std::vector<double>{1.0, 3.0, 5.0, 7.0}));
+}
+
+// Two beds whose columns carry 400 and 600 N: pictures show the first, curves both.
+TEST_F(BedReport, DrawsWhatTheDumpsOfSeveralSeedsTellAsMeanAndBand) {
+  write_another_seed("second", "0.0302");
+  write_column("B", 400.0);
+  write_column("second", 600.0);
+  const std::vector<BedResult> beds = {result("B"), result("second")};
+  const FigurePlan plan = plan_bed_figures(group_beds(beds));
+  EXPECT_EQ(figure_of(plan, "bed1_peak").figure.panels.size(), 1U);
+  put("stress.csv", figure_of(plan, "bed1_stress").csv);
+  const Table table = read_table(root / "stress.csv");
+  const std::vector<std::string> curves = table.text("curve");
+  const std::vector<double> stress = table.numbers("vertical stress (Pa)");
+  std::map<std::string, double> sums;
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    sums[curves[i]] += stress[i];
+  EXPECT_EQ(sums.size(), 3U);
+  EXPECT_NEAR(sums["B"], 7.0 * 500.0 / 8.0, 1e-3);
+  EXPECT_NEAR(sums["B low"], 7.0 * 400.0 / 8.0, 1e-3);
+  EXPECT_NEAR(sums["B high"], 7.0 * 600.0 / 8.0, 1e-3);
+  EXPECT_EQ(figure_of(plan, "bed1_stress").figure.panels[0].curves.size(), 3U);
+  EXPECT_TRUE(contains(figure_of(plan, "bed1_contact").csv, {"\nB,", "\nB low,", "\nB high,"}));
+  EXPECT_TRUE(
+      contains(figure_of(plan, "bed1_profile").csv, {"\nB before whole low,", "\nB after below high,"}));
+  for (const char *name : {"bed1_stress", "bed1_contact", "bed1_profile"})
+    EXPECT_TRUE(contains(figure_of(plan, name).caption, "Means over up to 2 beds of a condition"));
+}
+
+// A row of discs of 1 m radius in two of the four zones below and beside a drum that is 4 m wide, and of half
+// of that radius, two of them, in the last: they fill pi/4, and pi/8 of the layer of 2 m.
+TEST_F(BedReport, DrawsTheSolidFractionBesideTheDrum) {
+  std::string zeros;
+  for (int n = 0; n < 6; ++n)
+    zeros += "0 0 0 ";
+  const std::vector<test::Array> arrays = {{"id", 1, "1 2 3 4 5 6"},
+                                           {"type", 1, "1 1 1 1 1 2"},
+                                           {"radius", 1, "1 1 1 0.5 0.5 2"},
+                                           {"mass", 1, "1 1 1 1 1 1"},
+                                           {"v", 3, zeros},
+                                           {"omega", 3, zeros},
+                                           {"f", 3, zeros}};
+  for (const char *step : {"0", "800"})
+    put(fmt::format("A/dump/balls_{}.vtp", step),
+        test::point_data(6, "-1 1 0 1 1 0 3 1 0 4.5 0.5 0 5.5 0.5 0 2 4 0", arrays));
+  const std::vector<BedResult> beds = {result("A")};
+  const PageFigure figure = figure_of(plan_bed_figures(group_beds(beds)), "bed1_profile");
+  ASSERT_EQ(figure.figure.panels.size(), 3U);
+  put("profile.csv", figure.csv);
+  const Table table = read_table(root / "profile.csv");
+  const std::vector<std::string> curves = table.text("curve");
+  const std::vector<double> fractions = table.numbers("solid fraction (-)");
+  constexpr double quarter = 0.78539816339744831; // of pi
+  const std::map<std::string, double> expected = {
+      {"A before whole", 0.875 * quarter}, {"A before below", quarter}, {"A before beside", 0.75 * quarter}};
+  std::map<std::string, double> found;
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    found[curves[i]] = fractions[i];
+  for (const auto &[name, fraction] : expected)
+    EXPECT_NEAR(found.at(name), fraction, 1e-6) << name;
+  EXPECT_EQ(curves.size(), 6U);
 }
 
 // Balls of type 1 are the lower layer of soil, those of type 4 the upper one, and type 2 is the drum.
