@@ -21,7 +21,7 @@ namespace {
 /// of a bed that a user has added.
 bool is_deck(const fs::path &file) {
   static const std::set<std::string> others = {".csv", ".md", ".png", ".svg"},
-                                     cases = {"case.two_layers", "case.gravel", "case.loose"};
+                                     cases = {"case.base", "case.two_layers", "case.gravel", "case.loose"};
   const std::string name = file.filename().string();
   const bool of_bed = file.parent_path().filename() == "bed" && name.rfind("case.", 0) == 0;
   return others.count(file.extension().string()) == 0 && (!of_bed || cases.count(name) > 0);

@@ -670,7 +670,7 @@ TEST_F(Bed, EnergyErrorIsBelowAThousandthWithContactsThatYieldAndContinue) {
   }
 }
 
-// On the default gravel a vibrating drum stays within 2 % of its diameter of 0.2 m. Without rolling friction
+// On gravel a vibrating drum stays within 2 % of its diameter of 0.2 m. Without rolling friction
 // it settles more: of four seeds by 2 to 18 mm in four cycles. At rest the sides carry a part of the weight
 // by friction, as in a silo. A bed that was poured with k / 10 is wedged between them: they press it down,
 // and the floor carries 1.15 weights.

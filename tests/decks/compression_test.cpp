@@ -124,6 +124,14 @@ TEST_P(Biaxial, FindsTheCohesionThatSuctionGivesAHexagonalLattice) {
   }
 }
 
+// The suction with which a sample is made is gone in the test: the strength is that without any.
+TEST_P(Biaxial, LeavesTheSuctionOfItsPreparation) {
+  const std::vector<double> ratio = ratios(run_biaxial(
+      GetParam(), with(lattice("hexagonal", "0.3", "9e-4"), {{"prepare_tensile_strength", "1e5"}})));
+  const double highest = *std::max_element(ratio.begin(), ratio.end());
+  EXPECT_NEAR(highest, strength(0.3), 5e-3 * highest);
+}
+
 // The upper platen moves by 4 nm in a time step, and its position is a multiple of 15 pm, the spacing of
 // floating-point numbers there. The limit of the energy error is exceeded if the distance of a step is not a
 // multiple of this spacing, if the platen is not at rest before it is accelerated, or if the work of the side

@@ -80,6 +80,7 @@ public:
 
   double last(const std::string &column) const { return table_.numbers(column).back(); }
   double first(const std::string &column) const { return table_.numbers(column).front(); }
+  std::vector<double> side_force() const { return table_.numbers("side_force_N"); }
   double walls() const { return last("left_force_N") + last("side_force_N"); }
   double wall_friction() const { return last("left_friction_N") + last("side_friction_N"); }
   /// Expects that the absolute energy error of each row of the CSV file is below a bound.
@@ -180,7 +181,7 @@ std::string default_of(const std::string &file, const std::string &name) {
   return "none in " + file;
 }
 
-// The element tests that measure strength have the same friction and rolling friction as the default bed.
+// The element tests that measure strength have the same friction and rolling friction as the bed.
 TEST(DefaultContacts, AreThoseOfTheGravel) {
   for (const std::string deck : {"own_weight", "compression", "in.shear", "in.density"})
     for (const std::string name : {"friction", "rolling"})
@@ -198,6 +199,23 @@ TEST_P(OwnWeight, FindsTheActiveForceOfADisorderedSample) {
   EXPECT_NEAR(run.last("left_force_N"), run.last("side_force_N"), 0.1 * run.last("side_force_N"));
   EXPECT_NEAR(run.last("floor_force_N"), run.first("floor_force_N"), 0.02 * run.first("floor_force_N"));
   run.expect_energy_balance();
+}
+
+// A vertical cut: the wall leaves the soil. Half of Rumpf's strength times tan phi as cohesion, 4 c/gamma
+// tan(45 + phi/2) gives heights of 4 and 0.2 of this sample: the soil stands, or follows the wall.
+TEST_P(OwnWeight, StandsAsAVerticalCutByItsSuction) {
+  const auto force_behind = [](const std::string &suction) {
+    const Variables variables =
+        with(disordered, {{"strain", "0.1"}, {"samples_of_strain", "10"}, {"suction", suction}});
+    const WeightRun run(GetParam(), "wall", variables);
+    run.expect_energy_balance();
+    return run.side_force();
+  };
+  const std::vector<double> stands = force_behind("200"), falls = force_behind("10");
+  for (std::size_t row = 5; row < stands.size(); ++row) {
+    EXPECT_DOUBLE_EQ(stands[row], 0.0) << row;
+    EXPECT_GT(falls[row], 0.02 * falls.front()) << row;
+  }
 }
 
 // Full friction of the walls, and the balance of the vertical forces.

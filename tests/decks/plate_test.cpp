@@ -25,8 +25,8 @@ std::filesystem::path in_settle() { return chain_deck("../bed/in.settle"); }
 
 const Variables own_contacts = {{"k", "1e9"}, {"dt", "1e-5"}}; // of lattices, in in.plate
 const Variables without_pouring = {
-    {"k", "1e9"},        {"pour_k", "1e9"}, {"pour_friction", "0.8"}, {"pour_rolling", "0.3"},
-    {"pour_dt", "1e-5"}, {"fall", "0"},     {"drag", "2000"},         {"ratio", "1e-6"}};
+    {"case", "gravel"},  {"k", "1e9"},  {"pour_k", "1e9"}, {"pour_friction", "0.8"}, {"pour_rolling", "0.3"},
+    {"pour_dt", "1e-5"}, {"fall", "0"}, {"drag", "2000"},  {"ratio", "1e-6"}};
 
 /// A lattice of balls between walls, square or hexagonal. In a hexagonal one the balls of a row overlap, so
 /// that their contacts carry a force, and just touch those of other rows; in a square one all just touch.
@@ -243,12 +243,13 @@ INSTANTIATE_TEST_SUITE_P(Engines, PlateOnColumns, ::testing::Values("liggghts", 
 
 class Plate : public InEngine {};
 
-// A bed of 150 balls of the default gravel.
+// A bed of 150 balls of gravel.
 TEST_P(Plate, SettlesForGoodUnderItsFirstLoading) {
   const Scratch bed;
   well(run_program({DRUMLIN_TOOLS, "bed", "--balls", "150", "--width", "0.6", "--out", "balls.data"}, {},
                    bed.path()));
-  well(run_deck(in_settle(), {{"balls", "balls.data"}, {"bed", "soil.restart"}}, bed.path()));
+  well(run_deck(in_settle(), {{"case", "gravel"}, {"balls", "balls.data"}, {"bed", "soil.restart"}},
+                bed.path()));
   const post::Table rows =
       run_element_test(GetParam(), "plate",
                        {{"bed", (bed / "soil.restart").string()},

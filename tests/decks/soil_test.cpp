@@ -223,6 +223,26 @@ TEST(OedometerSample, LoadsADisorderedSample) {
   }
 }
 
+// A sample that is made moist is looser than one that is made dry with the same friction.
+TEST(OedometerSample, IsLooserIfItIsMadeMoist) {
+  for (const char *engine : {"liggghts", "lammps"}) {
+    if (std::string(engine) == "lammps" && !post::has_lammps()) continue;
+    std::vector<double> void_ratio;
+    for (const char *strength : {"0", "2e4"})
+      void_ratio.push_back(run_oedometer(engine, {{"columns", "10"},
+                                                  {"layers", "10"},
+                                                  {"loads", "10"},
+                                                  {"ramp", "1000"},
+                                                  {"ratio", "1e-2"},
+                                                  {"rolling", "0.45"},
+                                                  {"prepare_rolling", "0.45"},
+                                                  {"prepare_tensile_strength", strength}})
+                               .numbers("void_ratio")
+                               .front());
+    EXPECT_GT(void_ratio[1], void_ratio[0] + 0.02) << engine;
+  }
+}
+
 class Density : public InEngine {};
 INSTANTIATE_TEST_SUITE_P(Engines, Density, ::testing::Values("liggghts", "lammps"),
                          [](const auto &engine) { return engine.param; });

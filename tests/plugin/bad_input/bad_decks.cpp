@@ -150,18 +150,17 @@ BadGroup bed_settle() {
        {"guard", "1", "on or off"},
        {"k m2 m3 r2 r3 k23 dt ratio pour_k pour_dt", "0 -1 nan", positive},
        {"D friction rolling g c23 drag fall pour_D pour_friction pour_rolling", "-0.5", non_negative},
+       {"pour_tensile_strength", "-0.5", non_negative},
        {"k", "1e8,-1 1e8, 1e8;1e9", "a finite number > 0, or several, separated by commas"},
        {"settle_limit", "-1", whole},
        {"loose", "1", "a finite number below 1"},
        {"loose_steps", "0", whole},
-       {"drag", "1e9", "a finite number below 160000, which is 1/pour_dt"},
+       {"drag", "1e9", "a finite number below 15193"},
        {"fall", "1e9", below},
        {"balls", "none.data", "a file that can be read, which './drumlin bed --out none.data' makes",
         on_two_ranks}},
       {{"a case without a file", "case sand",
-        "drumlin/variable: variable case is 'sand'; allowed: base_course, gravel, gravel3d"},
-       {"the earlier name of a case", "case base_course",
-        "drumlin/check: variable case is 'base_course'; allowed: two_layers", on_two_ranks}});
+        "drumlin/variable: variable case is 'sand'; allowed: base, base3d, gravel, gravel3d"}});
 }
 
 BadGroup bed_place() {
@@ -203,7 +202,8 @@ BadGroup oedometer() {
   return of_deck(
       "Oedometer", "soil/in.oedometer",
       {{"radius density k kt seating ratio dt drag", "0 -1 nan", positive},
-       {"D friction prepare_friction prepare_rolling prepare_time", "-0.5", non_negative},
+       {"D friction prepare_friction prepare_rolling prepare_time prepare_tensile_strength", "-0.5",
+        non_negative},
        {"columns rows layers every ramp seed", "0 2.5", whole},
        {"stepping", "half", "second or stock", on_two_ranks},
        {"guard", "1", "on or off"},
