@@ -176,6 +176,10 @@ void read_chain_parameters(Run &run) {
 /// A bed must have all parameters, since its deck writes them.
 void read_bed_parameters(Run &run) {
   const std::string deck = run.text("deck", "");
+  if (deck == "drive") {
+    run.missing.emplace_back("the roller drives: ./drumlin passes tells what its passes leave.");
+    return;
+  }
   check_parameters(run, deck == "bed"
                             ? ""
                             : fmt::format("deck is '{}'; allowed: bed, since the folder has bed.csv", deck));
