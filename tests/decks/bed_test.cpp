@@ -695,6 +695,17 @@ TEST_F(Bed, OfGravelCarriesTheVibratingDrum) {
   EXPECT_GT(settlement({{"rolling", "0"}, {"allow_change", "rolling"}}), carried + 0.001);
 }
 
+// A base course, the default case, carries it within 5 %; its contacts yield meanwhile.
+TEST_F(Bed, OfABaseCourseCarriesTheVibratingDrum) {
+  const Scratch base, folder;
+  make(base, "1", {"ball"}, {{"case", "base"}, {"ratio", "1"}});
+  well(shake(folder, {{"cycles", "4"}, {"balance", "1e9"}, {"start", (base / "ball.restart").string()}}));
+  EXPECT_EQ(post::read_parameters(folder / "parameters.csv").at("tensile_strength"), "2e4");
+  const post::Table cycles = post::read_table(folder / "cycles.csv");
+  EXPECT_LT(cycles.numbers("settlement").back(), 0.01);
+  EXPECT_GT(cycles.numbers("dissipated_yield").back(), 0.0);
+}
+
 // Absorbing sides keep the reaction of the walls: they do not creep under the earth pressure.
 TEST_F(Bed, LeftAloneStaysAsItIs) {
   for (const auto &[stepping, boundary] :

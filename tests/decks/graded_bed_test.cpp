@@ -80,11 +80,21 @@ TEST(GradedBedDecks, FollowTheSmallestSphere) {
   EXPECT_NEAR(steps_in_contact(sphere(0.010), 4e7, steps), steps_in_contact(sphere(0.016), 4e7, 12500), 0.3);
 }
 
-TEST(GradedBedDecks, KeepTheStepsOfTheDefaultBed) {
+TEST(GradedBedDecks, KeepTheStepsOfGravel) {
   const Scratch folder;
   std::map<std::string, std::string> made = parameters_of(folder, {}, "gravel", "in.bed");
   EXPECT_EQ(made["steps_per_cycle"], "8000");
   EXPECT_EQ(made["grading"], "uniform");
+}
+
+// The base course has about as many steps in a contact, which is unloaded with the stiffness k yield.
+TEST(GradedBedDecks, HaveStepsForContactsOfTheBaseCourseThatAreUnloaded) {
+  const Scratch folder;
+  std::map<std::string, std::string> made = parameters_of(folder, {}, "base", "in.bed");
+  const double k2 = std::stod(made["k"]) * std::stod(made["yield"]),
+               mass = 3.141592653589793 * 2.56e-4 * 2650;
+  EXPECT_NEAR(steps_in_contact(mass, k2, std::stod(made["steps_per_cycle"])),
+              steps_in_contact(mass, 1e9, 8000), 0.5);
 }
 
 } // namespace
