@@ -311,6 +311,7 @@ TEST(Boundaries, RoomsOfThePluginIncludeWhatIsBelowThem) {
     ASSERT_EQ(plugin_rooms.count(room), 1U) << room;
     const bool adapter = room == "liggghts" || room == "lammps";
     expect_includes(fs::path("plugin") / room, [&](const std::string &file, const Include &include) {
+      if (room == "physics") return fits_physics(file, include);
       return adapter ? fits_adapter(file, include) : fits_shared(file, include);
     });
   }
