@@ -189,9 +189,7 @@ void FixStepping::follow_moved() {
   }
 }
 
-double FixStepping::moving_mass_of_moved(int i, int j, const std::array<double, 3> &normal,
-                                         double m_eff) const {
-  if (!is_moved(i) && (j < 0 || !is_moved(j))) return m_eff;
+double FixStepping::moving_mass_of_moved(int i, int j, const std::array<double, 3> &normal) const {
   const auto inverse = [&](int ball) { // along the normal
     double free = 0.0;
     for (std::size_t a = 0; a < 3; ++a)

@@ -98,7 +98,7 @@ public:
   /// Effective mass, kg, with which a contact changes the velocities of its balls: `m_eff` of the contact law
   /// unless one of them is moved. Infinite if both are. \param j below 0: a wall \param normal unit vector
   double moving_mass(int i, int j, const std::array<double, 3> &normal, double m_eff) const {
-    return any_moved_ ? moving_mass_of_moved(i, j, normal, m_eff) : m_eff;
+    return is_moved(i) || (j >= 0 && is_moved(j)) ? moving_mass_of_moved(i, j, normal) : m_eff;
   }
   /// Whether a component of the velocity of ball i does not depend on the forces on it. Known when forces are
   /// computed.
@@ -251,7 +251,7 @@ private:
     return velocity_[i][a] == atom->v[i][a] || (atom->mask[i] & prescribed_bits_[a]) != 0;
   }
   bool is_unchanged(int i) const { return is_unchanged(i, 0) && is_unchanged(i, 1) && is_unchanged(i, 2); }
-  double moving_mass_of_moved(int i, int j, const std::array<double, 3> &normal, double m_eff) const;
+  double moving_mass_of_moved(int i, int j, const std::array<double, 3> &normal) const;
   void take_masses();
   void gather(std::size_t numbers);
   void solve_coupled();

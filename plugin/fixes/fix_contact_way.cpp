@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <stdexcept>
 
@@ -75,40 +76,37 @@ int FixContactWay::setmask() {
 
 void FixContactWay::init() {
   source_ = drumlin::contact_source(lmp);
-  auto *table = source_ == nullptr ? nullptr : source_->linear_table();
+  const auto *table = source_ == nullptr ? nullptr : source_->linear_table();
   if (table == nullptr)
-    error->all(FLERR,
-               engine::error_text(fmt::format("{}: pair_style is '{}'; allowed: {}{}", command,
-                                              force->pair_style != nullptr ? force->pair_style : "none",
-                                              engine::pair_style_before_law, physics::LinearContact::name)));
+    refuse(fmt::format("pair_style is '{}'; allowed: {}{}",
+                       force->pair_style != nullptr ? force->pair_style : "none",
+                       engine::pair_style_before_law, physics::LinearContact::name));
   for (std::size_t n = 0; n < 2; ++n)
-    types_[n] = type_of(groups_[n], group->names[groups_[n]]);
+    types_[n] = type_of(groups_[n]);
   // After a run that has not ended well the table may still have what this fix has given.
   if (const Coefficients &present = table->at(types_[0], types_[1]);
       !given_ || present.contact.stiffness != now_.k || present.contact.damping != now_.D)
     of_deck_ = present;
   if (of_deck_.contact.damping_kind != physics::Damping::ratio)
-    error->all(
-        FLERR,
-        engine::error_text(fmt::format(
-            "{}: damping of the pair style is 'coefficient'; allowed: ratio, which the file has", command)));
+    refuse("damping of the pair style is 'coefficient'; allowed: ratio, which the file has");
   travel_ = dynamic_cast<FixDrumTravel *>(engine::find_fix(modify, travel_id_));
   if (travel_ == nullptr)
-    error->all(FLERR,
-               engine::error_text(fmt::format(
-                   "{}: keyword travel is '{}'; allowed: the ID of a fix drum/travel", command, travel_id_)));
+    refuse(fmt::format("keyword travel is '{}'; allowed: the ID of a fix drum/travel", travel_id_));
   const auto [least, most] = std::minmax(travel_->travel().from, travel_->travel().to);
   if (least < way_.front().s || most > way_.back().s)
-    error->all(FLERR,
-               engine::error_text(fmt::format(
-                   "{}: way of '{}' is '{:.9g} to {:.9g} m'; allowed: one that has the places {:.9g} to "
-                   "{:.9g} m of fix {}",
-                   command, file_, way_.front().s, way_.back().s, least, most, travel_id_)));
+    refuse(fmt::format("way of '{}' is '{:.9g} to {:.9g} m'; allowed: one that has the places {:.9g} to "
+                       "{:.9g} m of fix {}",
+                       file_, way_.front().s, way_.back().s, least, most, travel_id_));
+}
+
+void FixContactWay::refuse(const std::string &fault) const {
+  error->all(FLERR, engine::error_text(std::string(command) + ": " + fault));
+  std::abort(); // not reached: error->all() ends the process
 }
 
 /// The type of the balls of a group, which no other ball may have: coefficients belong to pairs of types.
 /// Collective.
-int FixContactWay::type_of(int group_number, const char *which) const {
+int FixContactWay::type_of(int group_number) const {
   const int bit = engine::group_bit(group_number);
   std::array<int, 2> ends{0, -atom->ntypes - 1}; // the highest type, and the negative of the lowest
   for (int i = 0; i < atom->nlocal; ++i)
@@ -119,12 +117,11 @@ int FixContactWay::type_of(int group_number, const char *which) const {
     others += !(atom->mask[i] & bit) && atom->type[i] == ends[0] ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &others, 1, MPI_INT, MPI_SUM, world);
   if (ends[0] == 0 || ends[0] != -ends[1] || others > 0)
-    error->all(FLERR,
-               engine::error_text(fmt::format(
-                   "{}: keyword between is '{}', a group {}; allowed: all balls of one type", command, which,
-                   ends[0] == 0          ? "without balls"
-                   : ends[0] != -ends[1] ? "of several types"
-                                         : "whose type other balls have, too")));
+    refuse(fmt::format("keyword between is '{}', a group {}; allowed: all balls of one type",
+                       group->names[group_number],
+                       ends[0] == 0          ? "without balls"
+                       : ends[0] != -ends[1] ? "of several types"
+                                             : "whose type other balls have, too"));
   return ends[0];
 }
 

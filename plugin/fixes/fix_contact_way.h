@@ -48,7 +48,8 @@ private:
   };
 
   void read(const std::string &file);
-  int type_of(int group_number, const char *which) const;
+  [[noreturn]] void refuse(const std::string &fault) const;
+  int type_of(int group_number) const;
   Soil soil_at(double place, bool forth) const;
   bool drives_forth() const;
   Jump jump_since(double place_before, int pass_before, const Soil &before) const;

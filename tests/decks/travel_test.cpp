@@ -121,7 +121,7 @@ TEST_P(TravellingDrum, GoesRoundAPeriodicBoxInOneDirection) {
   EXPECT_NEAR(read_rows(folder / "travel.txt").back().place, 2, 1e-12);
 }
 
-TEST_P(TravellingDrum, ContinuesFromARestartFileBitwiseInAPassAndInATurn) {
+TEST_P(TravellingDrum, ContinuesFromARestartFileBitwiseInAPassAndInATurnAlsoOnRanks) {
   for (const char *first : {"2000", "5500", "6200"}) { // at full speed, in the ramp, in the pause
     for (const char *rotation : {"driven", "towed"}) {
       const Scratch stayed, left;

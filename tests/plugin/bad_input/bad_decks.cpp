@@ -82,7 +82,7 @@ BadGroup chain_choices() {
         "drumlin/variables: variable out is 'xxx ... a value of at most 1000 characters"},
        {"another case of letters", "Case III",
         "drumlin/variables: -var Case is 'III' ... allowed: case, the nearest of roller, setting, case, g, "
-        "k, D",
+        "way, k, D",
         on_two_ranks},
        {"a misspelt name", "step_per_cycle 1000",
         "-var step_per_cycle is '1000' ... allowed: steps_per_cycle, the nearest of "}});
