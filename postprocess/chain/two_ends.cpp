@@ -639,7 +639,8 @@ TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMoti
     if (apart.cwiseProduct(scale).lpNorm<Eigen::Infinity>() <= 1e-6 * amplitude)
       orbit.cycles = static_cast<int>(cycles);
   }
-  const std::size_t count = orbit.cycles > 0 ? static_cast<std::size_t>(orbit.cycles) : last;
+  const std::size_t count = orbit.cycles > 0 ? static_cast<std::size_t>(orbit.cycles) : last,
+                    half = count / 2;
   if (count == 0 || (orbit.cycles == 0 && count < least_measured)) return orbit;
   // The products of bounce and of tilt are kept near one, and their sizes as logarithms.
   constexpr std::array<int, 8> order = {drum,      frame,      4 + drum,      4 + frame,
@@ -667,14 +668,14 @@ TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMoti
     tilt = (step.bottomRightCorner<4, 4>() * tilt).eval();
     shorten(all, size);
     shorten(tilt, tilt_size);
-    if (cycle + 1 == count / 2) {
+    if (cycle + 1 == half) {
       half_size = size;
       half_tilt_size = tilt_size;
     }
   }
-  const auto grown = [&orbit, count](const auto &matrix, double logarithm, double half) {
+  const auto grown = [&orbit, count, half](const auto &matrix, double logarithm, double at_half) {
     if (orbit.cycles > 0) return std::exp(logarithm) * matrix.eigenvalues().cwiseAbs().maxCoeff();
-    return std::exp((logarithm - half) / static_cast<double>(count - count / 2));
+    return std::exp((logarithm - at_half) / static_cast<double>(count - half));
   };
   orbit.largest = grown(all, size, half_size);
   if (!coupled) orbit.of_tilt = grown(tilt, tilt_size, half_tilt_size);
