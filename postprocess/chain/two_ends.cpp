@@ -64,13 +64,17 @@ Vector4d weight(const TwoEnds &machine) {
 
 bool every(std::size_t /*link*/) { return true; }
 
+double determinant(const Moments &k) { return k.all * k.second - k.first * k.first; }
+
+/// Whether springs carry a weight in the middle with its moment.
+bool carry(const Moments &k) { return k.first == 0.0 || determinant(k) > 1e-13 * k.all * k.second; }
+
 /// Place and tilt at which springs carry a force in the middle; of springs that cannot carry its moment, the
 /// place alone.
 Eigen::Vector2d carrying(const Moments &k, double force) {
   if (k.all <= 0.0) return {0.0, 0.0};
-  const double product = k.all * k.second, determinant = product - k.first * k.first;
-  if (k.first == 0.0 || determinant <= 1e-13 * product) return {force / k.all, 0.0};
-  return {k.second * force / determinant, -k.first * force / determinant};
+  if (k.first == 0.0 || !carry(k)) return {force / k.all, 0.0};
+  return {k.second * force / determinant(k), -k.first * force / determinant(k)};
 }
 
 /// Positions at which the springs carry the weights; what they cannot carry is left over.
@@ -196,14 +200,9 @@ std::string TwoEnds::invalid() const {
                    "on both sides of the drum's middle, or all in it: else it has nothing to rest on");
   const Moments k(contacts, &AxleLink::k, every), k_bonds(bonds, &AxleLink::k, every);
   if (k_bonds.all <= 0.0) return refusal("bonds", "without stiffness", "a stiffness above 0 [N/m], or g = 0");
-  const auto carries = [](const Moments &springs) { // the moment of a weight in the middle
-    return springs.first == 0.0 || springs.all * springs.second - springs.first * springs.first >
-                                       1e-13 * springs.all * springs.second;
-  };
-  if (!carries(k))
-    return refusal("contacts", "almost a single one beside the middle", "stiffness on both sides of it");
-  if (!carries(k_bonds))
-    return refusal("bonds", "almost a single one beside the middle", "stiffness on both sides of it");
+  for (const auto &[name, springs] : {std::pair("contacts", k), {"bonds", k_bonds}})
+    if (!carry(springs))
+      return refusal(name, "almost a single one beside the middle", "stiffness on both sides of it");
   return {};
 }
 
@@ -640,7 +639,8 @@ TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMoti
     if (apart.cwiseProduct(scale).lpNorm<Eigen::Infinity>() <= 1e-6 * amplitude)
       orbit.cycles = static_cast<int>(cycles);
   }
-  const std::size_t count = orbit.cycles > 0 ? static_cast<std::size_t>(orbit.cycles) : last;
+  const std::size_t count = orbit.cycles > 0 ? static_cast<std::size_t>(orbit.cycles) : last,
+                    half = count / 2;
   if (count == 0 || (orbit.cycles == 0 && count < least_measured)) return orbit;
   // The products of bounce and of tilt are kept near one, and their sizes as logarithms.
   constexpr std::array<int, 8> order = {drum,      frame,      4 + drum,      4 + frame,
@@ -668,14 +668,14 @@ TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMoti
     tilt = (step.bottomRightCorner<4, 4>() * tilt).eval();
     shorten(all, size);
     shorten(tilt, tilt_size);
-    if (cycle + 1 == count / 2) {
+    if (cycle + 1 == half) {
       half_size = size;
       half_tilt_size = tilt_size;
     }
   }
-  const auto grown = [&orbit, count](const auto &matrix, double logarithm, double half) {
+  const auto grown = [&orbit, count, half](const auto &matrix, double logarithm, double at_half) {
     if (orbit.cycles > 0) return std::exp(logarithm) * matrix.eigenvalues().cwiseAbs().maxCoeff();
-    return std::exp((logarithm - half) / static_cast<double>(count - count / 2));
+    return std::exp((logarithm - at_half) / static_cast<double>(count - half));
   };
   orbit.largest = grown(all, size, half_size);
   if (!coupled) orbit.of_tilt = grown(tilt, tilt_size, half_tilt_size);

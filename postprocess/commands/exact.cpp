@@ -171,7 +171,8 @@ std::optional<Ends> judge_ends(const Arguments &arguments, const AskedChain &cha
     }
   }
   if (arguments.tilt) ends.machine.tilt = number_option("--tilt", *arguments.tilt, {-0.1, 0.1, "rad"});
-  if (const std::string fault = ends.machine.invalid(); !fault.empty()) throw UsageError("--" + fault);
+  if (const std::string fault = ends.machine.invalid(); !fault.empty())
+    throw UsageError(fault.rfind("contacts", 0) == 0 ? "--" + fault : fault); // else of the roller's file
   return ends;
 }
 

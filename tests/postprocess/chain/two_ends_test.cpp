@@ -273,15 +273,11 @@ private:
     const double law_speed = -m_.contacts[j].k * gap_speed - m_.contacts[j].c * gap_rate(j, rates);
     Phase &phase = phase_[j];
     const Phase before = phase;
-    if (phase == free && gap_speed < 0.0)
-      phase = acting;
-    else if (phase == acting && !by_law && gap_speed > 0.0)
-      phase = free;
-    else if (phase == acting && by_law && law_speed < 0.0)
+    if (!by_law && (phase == free ? gap_speed < 0.0 : gap_speed > 0.0))
+      phase = phase == free ? acting : free;
+    else if (by_law && phase == acting && law_speed < 0.0)
       phase = gap(j, y) < 0.0 && m_.contacts[j].c > 0.0 ? silent : free;
-    else if (phase == silent && !by_law && gap_speed > 0.0)
-      phase = free;
-    else if (phase == silent && by_law && law_speed > 0.0)
+    else if (by_law && phase == silent && law_speed > 0.0)
       phase = acting;
     if (before == acting && phase != acting) {
       ++breaks_;

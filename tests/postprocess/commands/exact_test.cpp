@@ -324,6 +324,7 @@ TEST_F(ExactCommand, RefusesContactsThatTheDrumCannotHave) {
   const std::string count = "'; allowed: a whole number from 1 to 32, or a file that can be read, with the "
                             "columns y (m),k (N/m),c (N s/m)";
   std::ofstream(folder_ / "narrow") << "drum_mass 4 t\nframe_mass 3 t\nfrequency 30 Hz\nforce 250 kN\n";
+  std::ofstream(folder_ / "hung") << data_sheet << "bond_stiffness 1 MN/m\nbond_stiffness_left 1 MN/m\n";
   struct Bad {
     std::string text, options, line;
   };
@@ -346,6 +347,8 @@ TEST_F(ExactCommand, RefusesContactsThatTheDrumCannotHave) {
             "--tilt is '0.01'; allowed: none with --impact-speed"},
            {good, "--contacts 2 --roller narrow",
             "width of 'narrow' is missing; allowed: the width of the drum, which --contacts needs"},
+           {good, "--contacts 2 --roller hung",
+            "bonds is 'almost a single one beside the middle'; allowed: stiffness on both sides of it"},
            {good, "--contacts 2 --D 1e6",
             "--cycles is '30'; allowed: at most 3.13 of this machine and soil, whose fastest motion needs "
             "6.39e+06 steps per cycle"},
