@@ -3,8 +3,9 @@
 namespace drumlin {
 
 std::string history_header(bool with_frame, bool with_bed, bool travels) {
-  const std::string way =
-      !travels ? "" : with_bed ? ",s,pass,traction,torque,work_traction,work_torque" : ",s,pass";
+  const std::string way = !travels   ? ""
+                          : with_bed ? ",s,pass,traction,torque,work_traction,work_torque"
+                                     : ",s,pass";
   if (!with_frame) return "time,x_drum,v_drum,a_drum,F_contact,F_excitation" + way;
   const std::string roller =
       "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond";

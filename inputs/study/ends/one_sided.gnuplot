@@ -23,6 +23,8 @@ set title "Soil of 27 (left) and 18 MN/m (right)"
 set xrange [0:4]
 set key top right
 f = 29.0
-plot "chain.csv" using ($1 * f - 396):($1 * f >= 396 - 1e-9 ? 1e3 * ($2 - 1.065 * $11) : NaN) with lines lc rgb black dt 1 title "left end", \
-     "" using ($1 * f - 396):($1 * f >= 396 - 1e-9 ? 1e3 * ($2 + 1.065 * $11) : NaN) with lines lc rgb blue dt 2 title "right end"
+plot "chain.csv" using ($1 * f - 396):($1 * f >= 396 - 1e-9 ? 1e3 * ($2 - 1.065 * $11) : NaN) \
+       with lines lc rgb black dt 1 title "left end", \
+     "" using ($1 * f - 396):($1 * f >= 396 - 1e-9 ? 1e3 * ($2 + 1.065 * $11) : NaN) \
+       with lines lc rgb blue dt 2 title "right end"
 unset multiplot

@@ -126,7 +126,7 @@ std::string BedScatter::words() {
   return fmt::format(
       "One bed is one sample: beds that differ in their seed alone scatter by {:.0f} % in the largest "
       "force and acceleration, by {:.0f} % in the share of contact and by {:.1f} mm in the settlement "
-      "of a cycle (standard deviations over five beds of the default gravel in two dimensions, "
+      "of a cycle (standard deviations over five beds of case gravel in two dimensions, "
       "inputs/study/fidelity/findings.md).",
       100.0 * force, 100.0 * contact_share, 1e3 * settlement);
 }

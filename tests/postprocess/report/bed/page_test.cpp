@@ -178,7 +178,7 @@ TEST_F(BedReport, OpensWithTheNumbersOfItsTables) {
       "in "
       "the share of contact and by 3.3 mm in the settlement of a cycle (standard deviations over five beds "
       "of "
-      "the default gravel in two dimensions, inputs/study/fidelity/findings.md). The void ratio of the bed, "
+      "case gravel in two dimensions, inputs/study/fidelity/findings.md). The void ratio of the bed, "
       "at "
       "first 0.25, changes by -0.050, the number of contacts per ball, at first 3.3, by 1.7. The energy "
       "error, a "
