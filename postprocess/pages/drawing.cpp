@@ -204,8 +204,8 @@ const std::array<Scene, 12> scenes = {{
      "dashpot that act while drum and soil overlap.",
      chain_drawing, 310},
     {"Drum and frame on a bed of balls",
-     "The model: frame and drum move up and down only, on soil of balls in a box. Every contact is "
-     "a spring and a dashpot.",
+     "The model: frame and drum move up and down, and along the way if they drive, on soil of balls in a "
+     "box. Every contact is a spring and a dashpot, with friction.",
      bed_drawing, 310},
     {"A ball confined between two walls",
      "The model of the stability map: one ball in contact with one, two or four walls.", held_drawing, 190},
