@@ -643,8 +643,9 @@ TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMoti
                     half = count / 2;
   if (count == 0 || (orbit.cycles == 0 && count < least_measured)) return orbit;
   // The products of bounce and of tilt are kept near one, and their sizes as logarithms.
-  constexpr std::array<int, 8> order = {drum,      frame,      4 + drum,      4 + frame,
-                                        drum_tilt, frame_tilt, 4 + drum_tilt, 4 + frame_tilt};
+  static constexpr std::array<int, 8> order = {drum,      frame,      4 + drum,      4 + frame,
+                                               drum_tilt, frame_tilt, 4 + drum_tilt, 4 + frame_tilt};
+  const auto place = [](int n) { return order[static_cast<std::size_t>(n)]; };
   TwoEndsMatrix all = TwoEndsMatrix::Identity();
   Matrix4d tilt = Matrix4d::Identity();
   double size = 0.0, tilt_size = 0.0, half_size = 0.0, half_tilt_size = 0.0;
@@ -661,7 +662,7 @@ TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMoti
     TwoEndsMatrix step;
     for (int i = 0; i < 8; ++i)
       for (int j = 0; j < 8; ++j)
-        step(i, j) = plain(order[i], order[j]) * scale[order[i]] / scale[order[j]];
+        step(i, j) = plain(place(i), place(j)) * scale[place(i)] / scale[place(j)];
     coupled =
         coupled || !step.topRightCorner<4, 4>().isZero(1e-9) || !step.bottomLeftCorner<4, 4>().isZero(1e-9);
     all = (step * all).eval();

@@ -90,6 +90,7 @@ TEST_F(BedDriven, ComesToTheEndsOfItsWayAndItsWorkBalances) {
     const std::map<long, post::StepDump> dumps = post::dumped_steps(folder / "dump");
     ASSERT_EQ(dumps.size(), 3U);
     std::vector<double> places;
+    places.reserve(dumps.size());
     for (const auto &[step, files] : dumps)
       places.push_back(place_of_drum(files.balls));
     EXPECT_NEAR(places[0], -0.2, 1e-8);
