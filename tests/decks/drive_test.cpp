@@ -177,7 +177,7 @@ TEST_F(BedDriven, RefusesAWayThatItCannotDrive) {
   refused({{"speed", "-1"}}, "variable speed is '-1'; allowed: ");
   refused({{"dumps_per_pass", "7"}}, "variable steps_per_cycle is '1000'; allowed: ");
   refused({{"dumps_per_cycle", "10"}},
-          "variable dumps_per_cycle is '10'; allowed: a finite number of at most 0");
+          "variable dumps_per_cycle is '10'; allowed: a finite number at most 0, ");
   refused({{"cycles", "3"}},
           "ERROR: drumlin/variables: -var cycles is '3', a variable that this deck does not have; allowed: ");
   EXPECT_TRUE(
