@@ -57,7 +57,7 @@ void pick_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// tensile strength.
 void suction_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/way FILE: sets the variables of the soil along a way to those of its begin, and its ends.
+/// drumlin/way FILE: sets the variables of the soil along a way to those of its start, and its ends.
 void way_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// A command as a type, for engines that want a class for each.

@@ -18,7 +18,7 @@ void way_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
   if (file == "none" || !variables.fault().empty()) return;
   // Rank 0 reads the file, and the others get what they need: only one rank needs to see it.
   std::string fault;
-  std::array<double, 4> values{1.0, 0.0, 0.0, 1.0}; // k and D at the begin, and the ends
+  std::array<double, 4> values{1.0, 0.0, 0.0, 1.0}; // k and D at the start of the way, and its ends, m
   if (lmp->comm->me == 0) try {
       const Way way = read_way(file);
       values = {way.front().k, way.front().D, way.front().s, way.back().s};

@@ -120,7 +120,7 @@ inline void store(physics::Numbers &numbers, int n, const Four &four) {
 
 /// Writes the motion of the balls of `count` contacts to a block. Writes to the three contacts behind them,
 /// too.
-/// \param before rows of four numbers, for the second-order scheme: velocity at the begin of the step, m/s,
+/// \param before rows of four numbers, for the second-order scheme: velocity at the start of the step, m/s,
 /// and the sum of c/m, 1/s, which is zero unless `counted` \returns whether all contacts have the same two
 /// types of balls
 template <bool stepped, class Engine>

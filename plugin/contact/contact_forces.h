@@ -355,8 +355,8 @@ private:
     if (!at_walls) stepping_->add_damping(contact.j, law.dashpot(overlap));
   }
 
-  /// The normal force of a contact that goes on while its law jumps. It is never solved for together with
-  /// others, which a single step does not need.
+  /// The normal force of a contact whose stiffness and damping change within the step. Its dashpot is not
+  /// coupled with those of other contacts, since this happens in single steps only.
   physics::StepResult over_jump(int n, const typename Parameters::Law &after,
                                 const physics::StepMotion &motion, physics::ContactState &state,
                                 const physics::StepContext &context) const {

@@ -29,8 +29,8 @@ struct ContactCoefficients {
   double tangential_damping_share = 0.5; ///< of the normal damping coefficient, on top of ct
   double rolling = 0.0;                  ///< mu_r
   double suction = 0.0;                  ///< F_a, N, see physics::with_suction()
-  /// Whether the law jumps within the present step, from `contact_before` to `contact`: of the soil along a
-  /// way. See physics::advance_over_jump().
+  /// Whether stiffness and damping change at one instant of the present step, from those of `contact_before`
+  /// to those of `contact`: a roller crosses a step of the soil. See physics::advance_over_jump().
   bool jumps = false;
   double share_after = 0.0; ///< part of the step behind the jump, 0 to 1
   Contact contact_before{};

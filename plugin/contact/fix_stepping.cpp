@@ -87,7 +87,7 @@ int FixStepping::setmask() {
 
 void FixStepping::init() {
   comm_reverse =
-      most_gathered; // for which the engine makes room at the begin of each run; gather() may ask for less
+      most_gathered; // for which the engine makes room at the start of each run; gather() may ask for less
   observers_.find(*modify);
   moved_bits_ = travelling_bits_ = free_bits_ = 0;
   prescribed_bits_ = {};
@@ -150,7 +150,7 @@ void FixStepping::look_for_moved() {
   any_moved_ = any != 0;
 }
 
-/// Velocities and masses at the begin of the step. Other fixes may have changed them since the last one.
+/// Velocities and masses at the start of the step. Other fixes may have changed them since the last one.
 void FixStepping::open_step() {
   if (!in_use_) return;
   double **v = atom->v;

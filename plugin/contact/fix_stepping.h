@@ -245,8 +245,8 @@ private:
     return any_moved_ &&
            ((atom->mask[i] & (moved_bits_ | travelling_bits_)) != 0 || (atom->mask[i] & free_bits_) == 0);
   }
-  /// Whether a component of the velocity of ball i is the same before and after the opening half kick, or is
-  /// prescribed.
+  /// Whether the forces of the opening half step have not changed this component of the velocity of ball i,
+  /// or a fix prescribes it.
   bool is_unchanged(int i, std::size_t a) const {
     return velocity_[i][a] == atom->v[i][a] || (atom->mask[i] & prescribed_bits_[a]) != 0;
   }

@@ -144,13 +144,13 @@ FixContactWay::Soil FixContactWay::soil_at(double place, bool forth) const {
   return {a.k + share * (b.k - a.k), a.D + share * (b.D - a.D)};
 }
 
-/// The steps of the soil that the roller has crossed since the begin of the time step. Several ones act like
+/// The steps of the soil that the roller has crossed since the start of the time step. Several ones act like
 /// one between them.
 FixContactWay::Jump FixContactWay::jump_since(double place_before, int pass_before,
                                               const Soil &before) const {
   const physics::TravelState &state = travel_->state();
   Jump jump;
-  if (travel_->travel().one_way && state.pass != pass_before) { // back to the begin of the way
+  if (travel_->travel().one_way && state.pass != pass_before) { // back to the start of the way
     jump = {now_.k - before.k, now_.D - before.D, std::min(1.0, travel_->time_in_pass() / update->dt), true};
     return jump;
   }

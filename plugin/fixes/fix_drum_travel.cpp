@@ -266,8 +266,8 @@ void FixDrumTravel::rotate(double spin) {
         atom->omega[i][a] = spin * axle_[a];
 }
 
-/// Notes where the balls are. No command or fix can change their order before the next step begins, at most
-/// take one away.
+/// Notes the places of this rank's balls. Until the next step begins their order stays the same; at most one
+/// is removed.
 void FixDrumTravel::note_places() {
   places_.clear();
   for (int i = 0; i < atom->nlocal; ++i)
@@ -298,8 +298,8 @@ void FixDrumTravel::initial_integrate(int) {
   rotate(half_spin_);
 }
 
-/// Velocities at the end of the step; traction and work from the momentum that the other forces have not
-/// given.
+/// Prescribes the velocities at the end of the step. The traction is what the change of momentum needs beyond
+/// all other forces.
 void FixDrumTravel::final_integrate() {
   const Sums closing = sums(false);
   const double dt = clock_.dt(), impulse = 0.5 * dt * (opening_.force + closing.force);

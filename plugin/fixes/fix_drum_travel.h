@@ -35,15 +35,15 @@ public:
   /// Duration of the programme, s.
   double compute_scalar() override;
   /// 0: pass; 1: place, m; 2: its rate, m/s; 3: traction, N; 4: torque, N m; 5, 6: work of the two, J; 7:
-  /// time on the fix's clock, s; 8: angular velocity of the drum about its axle, rad/s.
+  /// time since the first set-up, s; 8: angular velocity of the drum about its axle, rad/s.
   double compute_vector(int) override;
-  /// "axis": the index of the axis along which the motion of the group does not depend on forces.
+  /// "axis": the index (0, 1, 2) of the axis along which the motion of the group is prescribed.
   void *extract(const char *name, int &dimensions) override;
 
   const drumlin::physics::Travel &travel() const { return travel_; }
   /// The roller at the end of the present step.
   const drumlin::physics::TravelState &state() const { return now_; }
-  /// Amplitude of the vibration over its full one, 0 to 1: that of the speed.
+  /// Share of the full vibration that acts now, 0 to 1: the present speed over that of the passes.
   double vibration() const { return std::fabs(now_.velocity) / travel_.speed; }
   /// Adds work, J, of this step that soil takes from the roller without a force on its balls.
   void add_work(double work);
@@ -53,7 +53,7 @@ public:
   double time_in_pass() const;
   /// Work of traction and torque on the group, J.
   double work() const { return work_ + torque_work_; }
-  /// Traction, N, and torque, N m, means of the last step, and their works since the begin, J.
+  /// Traction, N, and torque, N m, means of the last step, and their works since the first set-up, J.
   std::array<double, 4> drive() const { return {traction_, torque_, work_, torque_work_}; }
   /// Kinetic energy, J, that the drum has beyond that of a ball of its mass: of a given moment of inertia.
   double further_kinetic() const;
@@ -88,18 +88,19 @@ private:
 
   class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
   drumlin::Clock clock_;
-  drumlin::physics::TravelState before_, now_; // at the begin and the end of the step
+  drumlin::physics::TravelState before_, now_; // at the start and the end of the step
   std::vector<std::pair<int, double>> places_; // of this rank's balls at the end of the last step: ID, m
   std::array<double, 3> axle_{}; // about which the drum rolls when it drives towards greater places
   double rolling_radius_ = 0.0;  // m
   double drum_inertia_ = 0.0;    // kg m2
   double ball_inertia_ = 0.0;    // kg m2, with which the engine counts its energy
-  double spacing_ = 0.0;         // m, of the grid on which the positions along the axis lie; 0: not begun
-  double moved_ = 0.0;           // m, along the axis since the begin, a multiple of it
-  double spin_ = 0.0;            // rad/s, about the axle
-  double half_velocity_ = 0.0;   // m/s, the mean of the present step
-  double half_spin_ = 0.0;       // rad/s, the same
-  Sums opening_;                 // of the opening half kick of the step
+  double spacing_ =
+      0.0; // m, distance of the places that balls can have along the axis; 0 before the first set-up
+  double moved_ = 0.0;         // m, way along the axis since the first set-up, a multiple of spacing_
+  double spin_ = 0.0;          // rad/s, about the axle
+  double half_velocity_ = 0.0; // m/s, the mean of the present step
+  double half_spin_ = 0.0;     // rad/s, the same
+  Sums opening_;               // of the opening half kick of the step
   double traction_ = 0.0, torque_ = 0.0;  // N, N m, means of the last step
   double work_ = 0.0, torque_work_ = 0.0; // J
   drumlin::DeckCheck deck_check_;

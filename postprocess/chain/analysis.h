@@ -16,7 +16,7 @@
 
 namespace drumlin::post {
 
-/// An interval of time (s), which includes its begin but not its end.
+/// An interval of time (s), which includes its start but not its end.
 struct TimeWindow {
   double begin = 0.0; ///< s
   double end = 0.0;   ///< s

@@ -195,6 +195,13 @@ double largest_value(const double *coefficients, std::size_t terms, double known
   return largest_in(control_points(coefficients, terms), terms - 1, known, 1e-15 * size);
 }
 
+void widen(std::array<double, most_terms> &coefficients, std::size_t terms, double &min, double &max) {
+  max = largest_value(coefficients.data(), terms, max);
+  for (double &coefficient : coefficients)
+    coefficient = 0.0 - coefficient;
+  min = -largest_value(coefficients.data(), terms, -min);
+}
+
 // ---- pieces ----
 
 ChainState MotionPiece::state(double s) const {
@@ -682,15 +689,9 @@ private:
       if (n + 1 < piece.terms)
         a[n] = static_cast<double>(n + 1) * piece.coefficient[n + 1][1] / piece.length * power;
     }
-    include(a, piece.terms - 1, summary_.a_drum_min, summary_.a_drum_max);
-    include(F, piece.terms, summary_.F_contact_min, summary_.F_contact_max);
+    widen(a, piece.terms - 1, summary_.a_drum_min, summary_.a_drum_max);
+    widen(F, piece.terms, summary_.F_contact_min, summary_.F_contact_max);
     if (piece.phase == ContactPhase::contact) summary_.contact_share += piece.length * piece.end;
-  }
-  static void include(std::array<double, most_terms> &values, std::size_t terms, double &min, double &max) {
-    max = largest_value(values.data(), terms, max);
-    for (double &value : values)
-      value = 0.0 - value;
-    min = -largest_value(values.data(), terms, -min);
   }
 
   const ChainSolver *solver_;

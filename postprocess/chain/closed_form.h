@@ -182,4 +182,8 @@ double first_upcrossing(const double *coefficients, std::size_t terms);
 /// The largest value of a polynomial for s in [0, 1], or `known` if that is larger.
 double largest_value(const double *coefficients, std::size_t terms, double known);
 
+/// Widens `min` to `max` by the values of a polynomial of `terms` terms over 0 <= s <= 1, whose coefficients
+/// change their sign.
+void widen(std::array<double, most_terms> &coefficients, std::size_t terms, double &min, double &max);
+
 } // namespace drumlin::post

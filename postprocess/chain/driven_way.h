@@ -13,9 +13,9 @@ namespace drumlin::post {
 /// A stretch of time in which k and D of the contact are linear in time.
 struct WaySection {
   double begin = 0.0, end = 0.0;  ///< since the start of the excitation [s]
-  double k = 0.0, k_rate = 0.0;   ///< at its begin [N/m], and per time [N/(m s)]
-  double D = 0.0, D_rate = 0.0;   ///< at its begin [-], and per time [1/s]
-  double s = 0.0, velocity = 0.0; ///< place at its begin [m]; negative on the way back [m/s]
+  double k = 0.0, k_rate = 0.0;   ///< at its start [N/m], and per time [N/(m s)]
+  double D = 0.0, D_rate = 0.0;   ///< at its start [-], and per time [1/s]
+  double s = 0.0, velocity = 0.0; ///< place at its start [m]; negative on the way back [m/s]
   int pass = 1;                   ///< counted from 1
 
   bool constant() const { return k_rate == 0.0 && D_rate == 0.0; }

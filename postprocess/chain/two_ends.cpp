@@ -66,7 +66,7 @@ bool every(std::size_t /*link*/) { return true; }
 
 double determinant(const Moments &k) { return k.all * k.second - k.first * k.first; }
 
-/// Whether springs carry a weight in the middle with its moment.
+/// Whether the springs can hold a force in the middle in equilibrium, its moment included.
 bool carry(const Moments &k) { return k.first == 0.0 || determinant(k) > 1e-13 * k.all * k.second; }
 
 /// Place and tilt at which springs carry a force in the middle; of springs that cannot carry its moment, the
@@ -345,8 +345,8 @@ double TwoEndsSolver::force(const TwoEndsMotion::Contact &contact, std::size_t i
   return machine_.chain.transition == Transition::B ? std::max(0.0, value) : value;
 }
 
-// The ways out of a phase: 0 is the boundary d = 0, 1 the boundary F = 0. Each is a function that is positive
-// beyond.
+// The first event that ends the present phase of a contact, at d = 0 (0) or at F = 0 (1). The function of
+// each is negative before its event and positive after it.
 TwoEndsSolver::Exit TwoEndsSolver::first_exit(const ContactSet::Piece &piece, std::size_t contact,
                                               const TwoEndsMotion::Contact &now) const {
   const AxleLink &link = machine_.contacts[contact];
@@ -598,15 +598,9 @@ private:
       if (n + 1 < piece.terms)
         a[n] = static_cast<double>(n + 1) * piece.velocity[n + 1][drum] / piece.length * power;
     }
-    include(a, piece.terms - 1, summary_.a_drum_min, summary_.a_drum_max);
-    include(F, piece.terms, summary_.F_contact_min, summary_.F_contact_max);
+    widen(a, piece.terms - 1, summary_.a_drum_min, summary_.a_drum_max);
+    widen(F, piece.terms, summary_.F_contact_min, summary_.F_contact_max);
     if (acting != 0) summary_.contact_share += piece.length * piece.end;
-  }
-  static void include(std::array<double, most_terms> &values, std::size_t terms, double &min, double &max) {
-    max = largest_value(values.data(), terms, max);
-    for (double &value : values)
-      value = 0.0 - value;
-    min = -largest_value(values.data(), terms, -min);
   }
 
   const TwoEnds &machine_;

@@ -58,7 +58,7 @@ std::vector<double> soil_force(const Record &record);
 /// and v_drum.
 /// - Deflection: the drum's lowest position below that at which the contact of that cycle began. In chain.csv
 /// contact
-///   begins at x_drum = 0; else it is the mean of the samples before and after the begin, and a cycle in
+///   begins at x_drum = 0; else it is the mean of the samples before and after this instant, and a cycle in
 ///   which contact does not begin has no value.
 MeterRecord meter_cycles(const Record &record);
 

@@ -181,8 +181,8 @@ std::string default_of(const std::string &file, const std::string &name) {
   return "none in " + file;
 }
 
-// The element tests that measure strength have the same friction and rolling friction as the bed.
-TEST(DefaultContacts, AreThoseOfTheGravel) {
+// By default the element tests of strength are made with the friction and rolling friction of the bed's soil.
+TEST(DefaultContacts, AreThoseOfTheBed) {
   for (const std::string deck : {"own_weight", "compression", "in.shear", "in.density"})
     for (const std::string name : {"friction", "rolling"})
       EXPECT_EQ(default_of("../soil/" + deck, name), default_of("../bed/variables", name)) << deck;
@@ -201,8 +201,10 @@ TEST_P(OwnWeight, FindsTheActiveForceOfADisorderedSample) {
   run.expect_energy_balance();
 }
 
-// A vertical cut: the wall leaves the soil. Half of Rumpf's strength times tan phi as cohesion, 4 c/gamma
-// tan(45 + phi/2) gives heights of 4 and 0.2 of this sample: the soil stands, or follows the wall.
+// A vertical cut: the wall moves away from the soil, which stands by its cohesion or follows the wall. A cut
+// can be as high as 4 c/gamma tan(45 + phi/2). With the cohesion c that biaxial tests give, half of Rumpf's
+// strength times tan(phi), this is 4 times the height of the sample for the larger suction, and 0.2 times
+// for the smaller one.
 TEST_P(OwnWeight, StandsAsAVerticalCutByItsSuction) {
   const auto force_behind = [](const std::string &suction) {
     const Variables variables =

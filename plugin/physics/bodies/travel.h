@@ -57,7 +57,7 @@ struct TravelState {
   bool cruises = false;      ///< at its full speed
 };
 
-/// The state at a time, s, since the begin of the first pass. Where the speed
+/// The state at a time, s, since the start of the first pass. Where the speed
 /// jumps it has its later value, but at the end of the last pass its earlier one.
 [[nodiscard]] inline TravelState travel_state(const Travel &travel, double time) {
   const double whole = travel.pass_time(), period = whole + travel.pause;
@@ -104,7 +104,8 @@ struct TravelState {
   return state;
 }
 
-/// Mean velocity, m/s, between two times, s. `first` and `last` are the states then.
+/// Mean velocity, m/s, over the time from `begin` to `end`, s, at which the roller is in the states `first`
+/// and `last`.
 [[nodiscard]] inline double mean_velocity(const Travel &travel, double begin, double end,
                                           const TravelState &first, const TravelState &last) {
   const bool same_pass = first.pass == last.pass;

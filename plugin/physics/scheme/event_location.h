@@ -24,7 +24,7 @@ struct OverlapState {
 /// A make or break of contact.
 struct ContactTransition {
   bool make;
-  double since;   ///< s after the begin of the step, 0 to dt
+  double since;   ///< s after the start of the step, 0 to dt
   double overlap; ///< m, at the event
   double rate;    ///< m/s, at the event
   double force; ///< N: just after a make; just before a break under A (tensile, Eq. 5); 0 at a break under B

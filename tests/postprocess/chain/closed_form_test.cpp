@@ -4,6 +4,7 @@
 #include "chain/closed_form.h"
 #include "chain/direct_solver.h"
 #include "files/roller.h"
+#include "tests/support/chain_record.h"
 #include "tests/support/piecewise_oracle.h"
 
 #include <gtest/gtest.h>
@@ -17,27 +18,12 @@
 namespace {
 
 using namespace drumlin::post;
-
-double largest(const std::vector<double> &values) {
-  double most = 0.0;
-  for (const double value : values)
-    most = std::max(most, std::fabs(value));
-  return most;
-}
+using drumlin::test::largest, drumlin::test::relative;
 
 DirectOptions cycles(double count) {
   DirectOptions options;
   options.cycles = count;
   return options;
-}
-
-// Largest difference of two columns over the largest value.
-double relative(const std::vector<double> &a, const std::vector<double> &b) {
-  EXPECT_EQ(a.size(), b.size());
-  double most = 0.0;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-    most = std::max(most, std::fabs(a[i] - b[i]));
-  return most / largest(b);
 }
 
 void expect_same_events(const std::vector<ContactEvent> &a, const std::vector<ContactEvent> &b, double period,

@@ -4,6 +4,7 @@
 #include "chain/closed_form.h"
 #include "chain/direct_solver.h"
 #include "chain/driven_way.h"
+#include "tests/support/chain_record.h"
 #include "tests/support/ode.h"
 
 #include <gtest/gtest.h>
@@ -20,26 +21,13 @@ namespace {
 
 using namespace drumlin::post;
 using drumlin::Way;
+using drumlin::test::relative;
 
 DirectOptions driven(const ChainParameters &p, const Way &way, double speed, int passes = 1) {
   DirectOptions options;
   options.way = drive(way, speed, passes);
   options.cycles = options.way.back().end / p.period();
   return options;
-}
-
-double relative(const std::vector<double> &a, const std::vector<double> &b, std::size_t rows) {
-  double most = 0.0, scale = 0.0;
-  for (std::size_t i = 0; i < rows; ++i) {
-    most = std::max(most, std::fabs(a.at(i) - b.at(i)));
-    scale = std::max(scale, std::fabs(b.at(i)));
-  }
-  return most / scale;
-}
-
-double relative(const std::vector<double> &a, const std::vector<double> &b) {
-  EXPECT_EQ(a.size(), b.size());
-  return relative(a, b, std::min(a.size(), b.size()));
 }
 
 // k and D at a place, found from the rows.

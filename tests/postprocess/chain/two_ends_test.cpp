@@ -3,6 +3,7 @@
 #include "chain/closed_form.h"
 #include "chain/two_ends.h"
 #include "files/roller.h"
+#include "tests/support/chain_record.h"
 #include "tests/support/ode.h"
 
 #include <Eigen/Dense>
@@ -21,24 +22,9 @@
 namespace {
 
 using namespace drumlin::post;
+using drumlin::test::largest, drumlin::test::relative;
 
 constexpr double pi = 3.14159265358979323846;
-
-double largest(const std::vector<double> &values) {
-  double most = 0.0;
-  for (const double value : values)
-    most = std::max(most, std::fabs(value));
-  return most;
-}
-
-// Largest difference of two columns over the largest value.
-double relative(const std::vector<double> &a, const std::vector<double> &b) {
-  EXPECT_EQ(a.size(), b.size());
-  double most = 0.0;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-    most = std::max(most, std::fabs(a[i] - b[i]));
-  return most / largest(b);
-}
 
 DirectOptions cycles(double count, int samples = 200) {
   DirectOptions options;
@@ -47,7 +33,7 @@ DirectOptions cycles(double count, int samples = 200) {
   return options;
 }
 
-// A chain as a machine with equal bonds on equal contacts.
+// The drum and frame of a chain, with equal bonds at both ends, on equal contacts.
 TwoEnds equal_halves(const ChainParameters &chain, int contacts) {
   TwoEnds machine = two_ends(chain, drumlin::Roller());
   machine.contacts = equal_contacts(contacts, 2.13, chain.k, chain.damping());

@@ -177,8 +177,8 @@ protected:
   const fs::path folder_ = scratch_.path();
 };
 
-// The lift's thickness is the distance of its discs' tops from those below, for arches cancel; all of the
-// settlement of the first two passes is compaction, all of that of the third was pushed aside.
+// Surfaces are rows of equal discs, so that the lift is as thick as the tops of its discs are above those of
+// the layer below. The first two passes only compact the lift; the third only pushes soil aside.
 TEST_F(Passes, TellsCompactionFromPushedSoil) {
   write_run("run");
   const Outcome outcome = passes({"run"});
