@@ -174,6 +174,25 @@ TEST_P(DrivenChain, BalancesItsEnergyWithTheWorkOfTheDrive) {
   }
 }
 
+// Nothing else acts on the chain along the way: what the changes of the soil take is the work of the drive,
+// and the integral of k'(s) d^2 / 2 is above zero onto stiffer soil.
+TEST(DrivenChainInLiggghts, CountsTheWorkOfTheSoilsChanges) {
+  const Scratch folder;
+  std::ofstream(folder / "way.csv") << post::way_text(
+      {{0, 40e6, 0.2}, {0.3, 40e6, 0.2}, {0.3, 80e6, 0.2}, {0.7, 120e6, 0.2}});
+  well(run_deck(test_deck("way_work.in"),
+                {{"here", (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/chain").string()},
+                 {"way", (folder / "way.csv").string()},
+                 {"speed", "1"},
+                 {"stepping", "second"},
+                 {"out", folder.path().string()}},
+                folder.path()));
+  const double work = post::read_table(folder / "work.csv").numbers("work").front();
+  EXPECT_GT(work, 1.0);
+  const double drive = post::read_table(folder / "cycles.csv").numbers("work_travel").back();
+  EXPECT_NEAR(work, drive, 1e-9 * drive);
+}
+
 /// A drum that rolls over a row of balls (travel.scene) whose contacts with it change along the way.
 class DrumOnChangingSoil : public BothEngines {
 protected:
