@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
@@ -91,7 +92,9 @@ TEST_F(BedDriven, ComesToTheEndsOfItsWayAndItsWorkBalances) {
       {{"driven", "rigid"}, {"towed", "rigid"}, {"none", "rigid"}, {"driven", "absorb"}}};
   for (const auto &[rotation, boundary] : scenes) {
     const Scratch folder;
+    std::ofstream(folder / "passes.csv") << "of an earlier run\n";
     well(drive(folder, {{"drum_rotation", rotation}, {"boundary", boundary}, {"steps_per_cycle", "2000"}}));
+    EXPECT_FALSE(fs::exists(folder / "passes.csv"));
     const std::map<long, post::StepDump> dumps = post::dumped_steps(folder / "dump");
     ASSERT_EQ(dumps.size(), 3U);
     std::vector<double> places;
