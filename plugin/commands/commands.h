@@ -60,6 +60,10 @@ void suction_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// drumlin/way FILE: sets the variables of the soil along a way to those of its start, and its ends.
 void way_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
+/// drumlin/ends machine CONTACTS ROLLER m2 m3 k23 c23 k D g: sets the variables of a roller that tilts.
+/// drumlin/ends laws STIFFNESSES RATIOS: gives its contacts their laws.
+void ends_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
 /// A command as a type, for engines that want a class for each.
 template <void (*run)(LAMMPS_NS::LAMMPS *, int, char **)>
 struct CommandType {
@@ -84,6 +88,7 @@ void for_each_command(Add &&add) {
   add(CommandType<surface_command>(), "drumlin/surface", "measures the mean height of a surface");
   add(CommandType<suction_command>(), "drumlin/suction", "finds the suction for a tensile strength");
   add(CommandType<way_command>(), "drumlin/way", "takes the ends of a way and its soil from a file");
+  add(CommandType<ends_command>(), "drumlin/ends", "takes contacts and bonds of a roller that tilts");
   add(CommandType<write_command>(), "drumlin/write", "writes restart and data files with notes");
 }
 

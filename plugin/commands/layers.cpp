@@ -174,7 +174,7 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
   for (int a = 1; a <= types; ++a)
     for (int b = 1; b <= types; ++b)
       table.push_back(contact(laws, a, b));
-  engine::set_contacts(lmp, table, rolling, yield);
+  engine::set_contacts(lmp, table, true, rolling, yield);
 }
 
 } // namespace drumlin

@@ -3,6 +3,7 @@
 #include "contact/pair_motion.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace drumlin {
@@ -64,16 +65,34 @@ void DrumContacts::add(std::array<double, 5> &sums, const Pair &pair, const Law 
   sums[3] += suction > 0.0 || law.acts(m.overlap, m.rate) ? 1.0 : 0.0;
 }
 
-DrumContactSums DrumContacts::sums(const std::array<double, 3> &axis) {
+/// Place of a ball of the drum along its axle, from its centre of mass, m: of a ghost the nearest image.
+double DrumContacts::place_on_axle(int ball, const physics::TiltAxes &axes, double centre) const {
+  const double *x = lmp_->atom->x[ball];
+  std::array<double, 3> apart =
+      physics::scaled(physics::dot({x[0], x[1], x[2]}, axes.axle) - centre, axes.axle);
+  engine::minimum_image(lmp_->domain, apart);
+  return physics::dot(apart, axes.axle);
+}
+
+DrumContactSums DrumContacts::sums(const std::array<double, 3> &axis, const physics::TiltAxes *axes,
+                                   double centre, double middle) {
   std::array<double, 5> mine{};
+  std::array<double, 3> ends{}; // forces left and right, moment
   mine[4] = std::exchange(missed_heat_, 0.0);
   for (Pair &pair : pairs_) {
     pair.law.follow(*source_, pair.i, pair.j, memory_at(pair.memory));
+    const double before = mine[0];
     std::visit([&](const auto &law) { add(mine, pair, law, axis); }, pair.law.law());
+    if (axes == nullptr) continue;
+    const double force = mine[0] - before;
+    const double s = place_on_axle(pair.sign > 0.0 ? pair.i : pair.j, *axes, centre);
+    const double on_right = std::fabs(s) <= middle ? 0.5 : s > 0.0 ? 1.0 : 0.0;
+    ends = physics::sum(ends, force, {1.0 - on_right, on_right, s});
   }
-  std::array<double, 5> all = mine;
-  if (lmp_->comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 5, MPI_DOUBLE, MPI_SUM, lmp_->world);
-  return {all[0], all[1], all[4], all[2], all[3] > 0.0};
+  std::array<double, 8> all{mine[0], mine[1], mine[2], mine[3], mine[4], ends[0], ends[1], ends[2]};
+  if (lmp_->comm->nprocs > 1)
+    MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, lmp_->world);
+  return {all[0], all[1], all[4], all[2], all[3] > 0.0, all[5], all[6], all[7]};
 }
 
 } // namespace drumlin

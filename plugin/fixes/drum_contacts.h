@@ -4,6 +4,7 @@
 
 #include "engine.h"
 #include "contact/contact_source.h"
+#include "physics/bodies/tilting_body.h"
 
 #include <array>
 #include <vector>
@@ -17,6 +18,9 @@ struct DrumContactSums {
   double missed_heat = 0.0; ///< J, of these dashpots in the last step, see ContactObserver::see_heat()
   double stored = 0.0;      ///< J, in the normal springs
   bool in_contact = false;  ///< whether a contact exerts a force
+  // Of a drum that tilts; a contact in its middle counts half to each side.
+  double left = 0.0, right = 0.0; ///< N, along the axis
+  double moment = 0.0;            ///< N m, about its centre of mass
 };
 
 /// The pairs of the neighbour list that may become such contacts, with their coefficients.
@@ -33,8 +37,11 @@ public:
 
   /// Sums with the present positions and velocities. Ghosts must have the velocities of their owners.
   /// Collective.
-  /// \param axis unit vector that points upwards
-  DrumContactSums sums(const std::array<double, 3> &axis);
+  /// \param axis unit vector that points upwards \param axes of a drum that tilts, nullptr: it does not
+  /// \param centre of mass of this drum along its axle, m \param middle m, distance from it within which a
+  /// contact is in the middle
+  DrumContactSums sums(const std::array<double, 3> &axis, const physics::TiltAxes *axes = nullptr,
+                       double centre = 0.0, double middle = 0.0);
 
 private:
   struct Pair {
@@ -48,6 +55,7 @@ private:
   template <class Law>
   void add(std::array<double, 5> &sums, const Pair &pair, const Law &law,
            const std::array<double, 3> &axis) const;
+  double place_on_axle(int ball, const physics::TiltAxes &axes, double centre) const;
 
   /// 1: ball i alone belongs to the drum, -1: ball j alone does, and the other one is not of the roller; 0:
   /// neither.

@@ -59,6 +59,7 @@ void FixBondSpring::init() {
   deck_check_.of_fix(lmp, *this);
   stepping_ = FixStepping::find(lmp);
   observers_.find(*modify);
+  clumps_.find(*modify);
   for (const int tag : tags_) {
     int mine = 0;
     for (int i = 0; i < atom->nlocal; ++i)
@@ -97,7 +98,7 @@ FixBondSpring::State FixBondSpring::gather_state() {
     if (const int i = local_[b]; i >= 0) {
       std::copy_n(atom->x[i], 3, mine[b].x);
       std::copy_n(atom->v[i], 3, mine[b].v);
-      std::fill_n(mine[b].inverse_mass, 3, 1.0 / atom->rmass[i]);
+      std::fill_n(mine[b].inverse_mass, 3, 1.0 / clumps_.mass_in_bond(*atom, i, atom->rmass[i]));
       if (stepping_) {
         for (std::size_t a = 0; a < 3; ++a)
           if (stepping_->is_driven(i, a)) mine[b].inverse_mass[a] = 0.0;
@@ -133,6 +134,17 @@ FixBondSpring::State FixBondSpring::gather_state() {
   }
   s.inverse_masses = s.inverse_mass[0] + s.inverse_mass[1];
   return s;
+}
+
+double FixBondSpring::place(const std::array<double, 3> &direction) const {
+  double place = 0.0;
+  if (const int i = local_[0]; i >= 0) {
+    std::array<double, 3> x{};
+    domain->unmap(atom->x[i], atom->image[i], x.data());
+    place = physics::dot(x, direction);
+  }
+  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &place, 1, MPI_DOUBLE, MPI_SUM, world);
+  return place;
 }
 
 /// The bond with the rate of its stretch at which spring and dashpot together exert a tension, N.

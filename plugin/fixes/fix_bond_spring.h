@@ -4,6 +4,7 @@
 #include "contact/deck_check.h"
 #include "engine.h"
 #include "contact/contact_observer.h"
+#include "fixes/fix_clump.h"
 #include "physics/bodies/bond_law.h"
 
 #include <optional>
@@ -33,6 +34,8 @@ public:
 
   /// Force and power at the present positions and velocities; zero when the bond is broken. Collective.
   drumlin::physics::BondForce evaluate();
+  /// Place of ball i along a direction, without the jumps at periodic boundaries, m. Collective.
+  double place(const std::array<double, 3> &direction) const;
   /// Present distance less the length without force, m; 0 before the length is known. Collective.
   double stretch() { return current_length_ ? 0.0 : gather_state().distance - bond_.length; }
 
@@ -64,6 +67,7 @@ private:
   bool current_length_ = true; // the length is the distance at the first set-up
   bool whole_ = true;
   class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
+  Clumps clumps_;                         // since the initialization of the run
   drumlin::DeckCheck deck_check_;
   bool echoed_ = false;
   State state_{};

@@ -1,16 +1,23 @@
 #pragma once
-// fix clump: a group of balls that translates as one rigid body. See plugin/doc/fix_clump.md.
+// fix clump: a group of balls that moves as one rigid body. See plugin/doc/fix_clump.md.
 
 #include "contact/deck_check.h"
 #include "engine.h"
+#include "physics/bodies/tilting_body.h"
 
 #include <array>
+#include <optional>
 #include <vector>
+
+namespace drumlin {
+class Arguments;
+}
 
 namespace LAMMPS_NS {
 
 /// Distributes the sum of the forces on the balls over them in proportion to their masses, so that all have
-/// one acceleration. Contacts of its balls use the mass of the body.
+/// one acceleration. A body that may tilt also takes the moment of these forces about its centre of mass.
+/// Contacts of its balls use the mass of the body.
 class FixClump : public Fix {
 public:
   FixClump(LAMMPS *, int, char **);
@@ -27,11 +34,29 @@ public:
 
   /// Mass of the body, kg, at the last time that forces were distributed; valid from init() on.
   double mass() const { return mass_; }
+  /// Mass that a contact of a ball of this type moves: that of the body, or its share by keyword `links`.
+  double mass_in_contact(int type) const { return links_[type] > 0.0 ? mass_ / links_[type] : mass_; }
+  /// The same of a bond; `own`, the mass of the ball, without this keyword.
+  double mass_in_bond(int type, double own) const { return links_[type] > 0.0 ? mass_ / links_[type] : own; }
+
+  /// Directions of a body that may tilt; none: it translates alone.
+  const std::optional<drumlin::physics::TiltAxes> &tilts() const { return axes_; }
+  /// Sums over the balls of a body that may tilt, at present. Collective.
+  drumlin::physics::AxleSums axle_sums() const;
+  /// Place of a ball of this rank without the jumps at periodic boundaries, m.
+  std::array<double, 3> place_of(int i) const;
 
 private:
+  void parse(drumlin::Arguments &in);
   int common_balls(const Fix &other) const;
   void refuse_unequal_velocities() const;
+  void refuse_other_shape() const;
+  void refuse_torques() const;
+  void refuse_large_tilt(const drumlin::physics::AxleSums &sums) const;
+  void distribute(const drumlin::physics::AxleSums &sums) const;
 
+  std::optional<drumlin::physics::TiltAxes> axes_;
+  std::vector<double> links_; // of each type: in how many contacts or bonds the body is held; 0: not given
   double mass_ = 0.0;
   std::array<double, 3> force_{}; // on the balls of this rank, before it is distributed, N
   drumlin::DeckCheck deck_check_;
@@ -54,8 +79,20 @@ public:
   /// `own`.
   double mass_of(const Atom &atom, int i, double own) const {
     for (const FixClump *clump : all_)
-      if (atom.mask[i] & clump->groupbit) return clump->mass();
+      if (atom.mask[i] & clump->groupbit) return clump->mass_in_contact(atom.type[i]);
     return own;
+  }
+  /// The same in a bond.
+  double mass_in_bond(const Atom &atom, int i, double own) const {
+    for (const FixClump *clump : all_)
+      if (atom.mask[i] & clump->groupbit) return clump->mass_in_bond(atom.type[i], own);
+    return own;
+  }
+  /// The clump of a group that may tilt; nullptr: there is none.
+  const FixClump *tilting(int groupbit) const {
+    for (const FixClump *clump : all_)
+      if (clump->groupbit == groupbit && clump->tilts()) return clump;
+    return nullptr;
   }
 
 private:

@@ -2,6 +2,7 @@
 
 #include "support/arguments.h"
 #include "contact/fix_stepping.h"
+#include "fixes/fix_clump.h"
 #include "fixes/fix_drum_travel.h"
 #include "support/restart_record.h"
 
@@ -53,6 +54,8 @@ void FixDrumExcite::parse(int narg, char **arg) {
       given_direction_ = in.direction("keyword direction");
     else if (keyword == "axis")
       axis_ = in.direction("keyword axis");
+    else if (keyword == "place")
+      place_ = in.number("keyword place");
     else if (keyword == "travel")
       travel_id_ = in.word("keyword travel", "the ID of a fix drum/travel");
     else
@@ -91,9 +94,9 @@ void FixDrumExcite::parse_excitation(drumlin::Arguments &in, const std::string &
   } else if (keyword == "mode") {
     excitation_.rotating = in.choice("keyword mode", {"directed", "rotating"}) == 1;
   } else {
-    in.fail(
-        "keyword", keyword,
-        "amplitude, eccentric, omega, frequency, phase, start, ramp, sweep, direction, mode, axis or travel");
+    in.fail("keyword", keyword,
+            "amplitude, eccentric, omega, frequency, phase, start, ramp, sweep, direction, mode, axis, place "
+            "or travel");
   }
 }
 
@@ -113,6 +116,7 @@ void FixDrumExcite::init() {
                           "fix drum/excite: keyword travel is '{}'; allowed: the ID of a fix drum/travel",
                           travel_id_)));
   stepping_ = FixStepping::find(lmp);
+  find_body();
   if (given_direction_) {
     direction_ = *given_direction_;
   } else {
@@ -133,6 +137,36 @@ void FixDrumExcite::init() {
                      "direction (cosine {:.6g}); allowed: an axis at right angles to the direction",
                      (*axis_)[0], (*axis_)[1], (*axis_)[2], along)));
     normal_ = cross(*axis_, direction_);
+  }
+}
+
+/// The body that tilts, if the force acts beside its middle.
+void FixDrumExcite::find_body() {
+  Clumps clumps;
+  clumps.find(*modify);
+  body_ = place_ != 0.0 ? clumps.tilting(groupbit) : nullptr;
+  if (place_ != 0.0 && body_ == nullptr)
+    error->all(FLERR, engine::error_text(fmt::format(
+                          "fix drum/excite: keyword place is '{:.6g} m'; allowed: 0, or the group of a fix "
+                          "clump with keyword tilt",
+                          place_)));
+}
+
+/// Calls add(i, f) for each ball of this rank with its share f of a force on the group, N. Collective if the
+/// body tilts.
+template <class Add>
+void FixDrumExcite::share(const Vector &whole, const Add &add) const {
+  const physics::AxleSums sums = body_ != nullptr ? body_->axle_sums() : physics::AxleSums();
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if ((atom->mask[i] & groupbit) == 0) continue;
+    if (body_ == nullptr) {
+      const double part = atom->rmass[i] / mass_;
+      add(i, Vector{part * whole[0], part * whole[1], part * whole[2]});
+      continue;
+    }
+    const physics::TiltAxes &axes = *body_->tilts();
+    const double s = physics::dot(body_->place_of(i), axes.axle);
+    add(i, sums.share(axes, atom->rmass[i], s, whole, place_ * physics::dot(whole, axes.rise)));
   }
 }
 
@@ -159,34 +193,22 @@ void FixDrumExcite::post_integrate() {
   clock_.follow(update->ntimestep, update->dt);
   if (stepping_ == nullptr) return;
   const Vector F = force_now();
-  for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit) {
-      const double share = atom->rmass[i] / mass_;
-      stepping_->foresee(
-          i, {share * (F[0] - acted_[0]), share * (F[1] - acted_[1]), share * (F[2] - acted_[2])});
-    }
+  share(physics::sum(F, -1.0, acted_),
+        [this](int i, const Vector &change) { stepping_->foresee(i, change); });
 }
 
 void FixDrumExcite::post_force(int) {
   const Vector F = force_now();
   acted_ = F;
-  double **f = atom->f;
-  const double *rmass = atom->rmass;
-  const int *mask = atom->mask;
-  balls_.clear();
   double mass = 0.0; // of this rank's balls, which may have changed
   for (int i = 0; i < atom->nlocal; ++i)
-    if (mask[i] & groupbit) {
-      balls_.push_back(i);
-      mass += rmass[i];
-    }
+    if (atom->mask[i] & groupbit) mass += atom->rmass[i];
   if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &mass, 1, MPI_DOUBLE, MPI_SUM, world);
   engine::follow_mass(mass_, mass);
-  for (const int i : balls_) {
-    const double share = rmass[i] / mass_;
+  share(F, [this](int i, const Vector &part) {
     for (std::size_t a = 0; a < 3; ++a)
-      f[i][a] += share * F[a];
-  }
+      atom->f[i][a] += part[a];
+  });
 }
 
 double FixDrumExcite::now() const { return clock_.time(update->ntimestep); }

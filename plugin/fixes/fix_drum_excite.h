@@ -34,6 +34,9 @@ public:
   /// 0-2: force components, N; 3: phase, rad; 4: angular frequency, rad/s; 5: time on the fix's clock, s.
   double compute_vector(int) override;
 
+  /// Where the force acts on a body that tilts: distance from its centre of mass along the axle, m.
+  double place() const { return place_; }
+
 private:
   using Vector = std::array<double, 3>;
   void parse(int narg, char **arg);
@@ -41,6 +44,9 @@ private:
   double now() const;
   double vibration() const;
   Vector force_now() const;
+  void find_body();
+  template <class Add>
+  void share(const Vector &whole, const Add &add) const;
 
   drumlin::physics::Excitation excitation_;
   std::optional<Vector> given_direction_;
@@ -49,11 +55,12 @@ private:
   Vector normal_{};       // axis x direction: direction of the second component of a rotating force
   std::string travel_id_; // empty: the roller does not drive
   const class FixDrumTravel *travel_ = nullptr; // since the initialization of the run
-  class FixStepping *stepping_ = nullptr;       // nullptr under stock stepping
-  Vector acted_{};                              // force of the last step
+  double place_ = 0.0;
+  const class FixClump *body_ = nullptr;  // on which the force exerts a moment; nullptr: it exerts none
+  class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
+  Vector acted_{};                        // force of the last step
   drumlin::Clock clock_;
-  double mass_ = 0.0;      // of the group
-  std::vector<int> balls_; // of the group on this rank, in this step
+  double mass_ = 0.0; // of the group
   drumlin::DeckCheck deck_check_;
   bool echoed_ = false;
 };

@@ -3,6 +3,7 @@
 #include "contact/pair_motion.h"
 #include "fixes/fix_bond_spring.h"
 #include "fixes/fix_boundary_absorb.h"
+#include "fixes/fix_clump.h"
 #include "fixes/fix_drum_excite.h"
 #include "fixes/fix_drum_travel.h"
 #include "support/arguments.h"
@@ -60,7 +61,9 @@ void FixRollerHistory::parse(int narg, char **arg) {
     } else if (keyword == "excite") {
       excite_id_ = in.word("keyword excite", "the ID of a fix drum/excite");
     } else if (keyword == "bond") {
-      bond_id_ = in.word("keyword bond", "the ID of a fix bond/spring");
+      bond_ids_.push_back(in.word("keyword bond", "the ID of a fix bond/spring"));
+    } else if (keyword == "ends") {
+      sensor_ = in.number("keyword ends", drumlin::Range::non_negative);
     } else if (keyword == "travel") {
       travel_id_ = in.word("keyword travel", "the ID of a fix drum/travel");
     } else if (keyword == "axis") {
@@ -74,7 +77,7 @@ void FixRollerHistory::parse(int narg, char **arg) {
       append_ = in.choice("keyword append", {"yes", "no"}) == 0;
     } else {
       in.fail("keyword", keyword,
-              "file, every, cycles, frame, soil, excite, bond, travel, axis, origin or append");
+              "file, every, cycles, frame, soil, excite, bond, travel, ends, axis, origin or append");
     }
   }
   if (file_name_.empty()) in.fail("keyword file is missing; allowed: file NAME every N");
@@ -85,6 +88,8 @@ void FixRollerHistory::parse(int narg, char **arg) {
     bed_.emplace(lmp, soil_groupbit_);
     observe(true);
   }
+  if (sensor_ && frame_.groupbit == 0)
+    in.fail("keyword frame is missing with keyword ends; allowed: both, or no ends");
   drum_.groupbit = groupbit;
   nevery = steps_per_cycle_ > 0 ? 1 : every_; // sums over a cycle need every step
   global_freq = nevery;
@@ -153,6 +158,22 @@ void FixRollerHistory::init() {
     axis_ = {-g[0] / size, -g[1] / size, -g[2] / size};
   }
   gravity_ = -along(g.data());
+  find_bodies();
+}
+
+/// The clumps of drum and frame with keyword ends.
+void FixRollerHistory::find_bodies() {
+  if (!sensor_) return;
+  Clumps clumps;
+  clumps.find(*modify);
+  drum_body_ = clumps.tilting(drum_.groupbit);
+  frame_body_ = clumps.tilting(frame_.groupbit);
+  for (const FixClump *body : {drum_body_, frame_body_})
+    if (body == nullptr || std::fabs(physics::dot(body->tilts()->rise, axis_) - 1.0) > 1e-9)
+      error->all(FLERR, engine::error_text(fmt::format(
+                            "{}: keyword ends is '{:.6g} m'; allowed: groups of drum and frame that a fix "
+                            "clump each tilts, with axis x axle along the keyword axis of this fix",
+                            command, *sensor_)));
 }
 
 /// The fixes that the keywords excite, bond and travel name, and the absorbing boundaries of a bed.
@@ -162,11 +183,14 @@ void FixRollerHistory::find_partners() {
     error->all(FLERR, engine::error_text(fmt::format(
                           "fix roller/history: keyword excite is '{}'; allowed: the ID of a fix drum/excite",
                           excite_id_)));
-  bond_ = dynamic_cast<FixBondSpring *>(engine::find_fix(modify, bond_id_));
-  if (!bond_id_.empty() && bond_ == nullptr)
-    error->all(FLERR, engine::error_text(fmt::format(
-                          "fix roller/history: keyword bond is '{}'; allowed: the ID of a fix bond/spring",
-                          bond_id_)));
+  bonds_.clear();
+  for (const std::string &bond : bond_ids_) {
+    bonds_.push_back(dynamic_cast<FixBondSpring *>(engine::find_fix(modify, bond)));
+    if (bonds_.back() == nullptr)
+      error->all(FLERR, engine::error_text(fmt::format(
+                            "fix roller/history: keyword bond is '{}'; allowed: the ID of a fix bond/spring",
+                            bond)));
+  }
   travel_ = dynamic_cast<FixDrumTravel *>(engine::find_fix(modify, travel_id_));
   if (!travel_id_.empty() && travel_ == nullptr)
     error->all(FLERR, engine::error_text(fmt::format(
@@ -209,7 +233,9 @@ void FixRollerHistory::open_files() {
   if (!file_) {
     file_.emplace(file_name_, append_);
     file_->open(comm, error, world, file_keyword,
-                drumlin::history_header(frame_.groupbit != 0, bed_.has_value(), travel_ != nullptr).c_str());
+                drumlin::history_header(frame_.groupbit != 0, bed_.has_value(), travel_ != nullptr,
+                                        sensor_.has_value())
+                    .c_str());
   }
   if (steps_per_cycle_ > 0 && !cycles_file_) {
     cycles_file_.emplace(cycles_name_, append_);
@@ -237,9 +263,16 @@ void FixRollerHistory::evaluate() {
   state_.time = clock_.time(update->ntimestep);
   drum_.locate(lmp, axis_, "drum", 0.0, state_.drum);
   if (frame_.groupbit != 0)
-    frame_.locate(lmp, axis_, "frame", bond_ && !frame_.has_origin ? bond_->stretch() : 0.0, state_.frame);
-
-  const drumlin::DrumContactSums contacts = contacts_.sums(axis_);
+    frame_.locate(lmp, axis_, "frame", !bonds_.empty() && !frame_.has_origin ? bonds_[0]->stretch() : 0.0,
+                  state_.frame);
+  const physics::TiltAxes *axes = nullptr;
+  double middle = 0.0;
+  if (sensor_) {
+    follow_tilt();
+    axes = &*drum_body_->tilts();
+    middle = 1e-9 * std::sqrt(drum_inertia_ / drum_.mass);
+  }
+  const drumlin::DrumContactSums contacts = contacts_.sums(axis_, axes, centre_, middle);
   drumlin::RollerForces &forces = state_.forces;
   forces = {};
   forces.contact = contacts.force;
@@ -247,7 +280,9 @@ void FixRollerHistory::evaluate() {
   forces.contact_missed = contacts.missed_heat;
   forces.contact_stored = contacts.stored;
   forces.in_contact = contacts.in_contact;
-  add_forces_of_partners();
+  forces.left = contacts.left;
+  forces.right = contacts.right;
+  add_forces_of_partners(contacts.moment);
   if (!bed_) return;
   bed_contacts_ = bed_->contacts(axis_);
   forces.contact_dissipated = bed_contacts_.normal_heat;
@@ -256,6 +291,18 @@ void FixRollerHistory::evaluate() {
   forces.contact_stored = bed_contacts_.normal_stored + bed_contacts_.tangential_stored;
   forces.tangential_power = bed_contacts_.tangential_power;
   add_ground();
+}
+
+/// Tilts and inertias of drum and frame. Collective.
+void FixRollerHistory::follow_tilt() {
+  const physics::AxleSums drum = drum_body_->axle_sums(), frame = frame_body_->axle_sums();
+  drum_inertia_ = drum.inertia();
+  frame_inertia_ = frame.inertia();
+  centre_ = drum.centre();
+  state_.drum.tilt = drum.tilt();
+  state_.drum.rate = drum.rate();
+  state_.frame.tilt = frame.tilt();
+  state_.frame.rate = frame.rate();
 }
 
 /// Energies and forces of the absorbing boundaries. Collective.
@@ -268,8 +315,9 @@ void FixRollerHistory::add_ground() {
   }
 }
 
-/// Forces of excitation and bond, and the accelerations that follow from all forces.
-void FixRollerHistory::add_forces_of_partners() {
+/// Forces of excitation and bonds, and the accelerations that follow from all forces. \param moment of the
+/// contacts on a drum that tilts, N m
+void FixRollerHistory::add_forces_of_partners(double moment) {
   drumlin::RollerForces &forces = state_.forces;
   double drum_force = forces.contact;
   if (excite_) {
@@ -278,17 +326,22 @@ void FixRollerHistory::add_forces_of_partners() {
     for (int a = 0; a < 3; ++a)
       upwards += excite_->compute_vector(a) * axis_[static_cast<std::size_t>(a)];
     drum_force += upwards;
-    forces.excitation_power = upwards * state_.drum.v;
+    forces.excitation_power = upwards * (state_.drum.v + excite_->place() * state_.drum.rate);
+    moment += upwards * excite_->place();
   }
-  if (bond_) {
-    const physics::BondForce bond = bond_->evaluate();
-    forces.bond = bond.force;
-    forces.bond_dissipated = bond.dissipated;
-    forces.bond_stored = bond.stored;
-    drum_force += bond.force; // the frame is above the drum: tension lifts the drum
-    if (frame_.mass > 0.0) state_.frame.a = -bond.force / frame_.mass - gravity_;
+  for (FixBondSpring *one : bonds_) {
+    const physics::BondForce bond = one->evaluate();
+    forces.bond += bond.force;
+    forces.bond_dissipated += bond.dissipated;
+    forces.bond_stored += bond.stored;
+    if (sensor_) moment += (one->place(drum_body_->tilts()->axle) - centre_) * bond.force;
+  }
+  if (!bonds_.empty()) {
+    drum_force += forces.bond; // the frame is above the drum: tension lifts the drum
+    if (frame_.mass > 0.0) state_.frame.a = -forces.bond / frame_.mass - gravity_;
   }
   state_.drum.a = drum_force / drum_.mass - gravity_;
+  if (sensor_) state_.drum.acceleration = moment / drum_inertia_;
 }
 
 void FixRollerHistory::end_of_step() {
@@ -331,6 +384,10 @@ void FixRollerHistory::write_sample() {
     row.insert(row.end(), {travel_->state().place, static_cast<double>(travel_->state().pass)});
     const std::array<double, 4> drive = travel_->drive();
     if (bed) row.insert(row.end(), drive.begin(), drive.end());
+  }
+  if (sensor_) {
+    const std::vector<double> ends = drumlin::tilts_of(state_, *sensor_);
+    row.insert(row.end(), ends.begin(), ends.end());
   }
   drumlin::write_row(file_->get(), row);
 }

@@ -22,6 +22,7 @@ class FixDrumExcite;
 class FixDrumTravel;
 class FixBondSpring;
 class FixBoundaryAbsorb;
+class FixClump;
 
 /// Writes samples (chain.csv or bed.csv) and, for each cycle, extremes, harmonics and energies over every
 /// step (cycles.csv). Forces and accelerations in a row are the right-hand sides of Eq. (1) at the positions
@@ -61,20 +62,25 @@ private:
   void parse(int narg, char **arg);
   void refuse_other_step() const;
   void find_partners();
+  void find_bodies();
+  void follow_tilt();
   void open_files();
   void set_reference();
   void evaluate();
-  void add_forces_of_partners();
+  void add_forces_of_partners(double moment);
   void add_ground();
   std::optional<drumlin::BedSample> bed_sample() const;
-  drumlin::RollerMasses masses() const { return {drum_.mass, frame_.mass, gravity_}; }
+  drumlin::RollerMasses masses() const {
+    return {drum_.mass, frame_.mass, gravity_, drum_inertia_, frame_inertia_};
+  }
   void write_sample();
   void write_cycle();
   void flush();
   bool yields() const;
   double along(const double *vector) const;
 
-  std::string file_name_, cycles_name_, excite_id_, bond_id_, travel_id_, frame_group_;
+  std::string file_name_, cycles_name_, excite_id_, travel_id_, frame_group_;
+  std::vector<std::string> bond_ids_;
   bool append_ = false;
   int every_ = 0;           // steps between rows
   int steps_per_cycle_ = 0; // 0: no cycles file
@@ -85,8 +91,12 @@ private:
   const drumlin::ContactSource *source_ = nullptr;
   FixDrumExcite *excite_ = nullptr;
   FixDrumTravel *travel_ = nullptr;
-  FixBondSpring *bond_ = nullptr;
-  std::vector<const FixBoundaryAbsorb *> ground_; // absorbing boundaries of the bed
+  std::vector<FixBondSpring *> bonds_;
+  std::optional<double> sensor_; // m, distance of a_left and a_right from the middle; none: nothing tilts
+  const FixClump *drum_body_ = nullptr, *frame_body_ = nullptr; // that tilt
+  double drum_inertia_ = 0.0, frame_inertia_ = 0.0;             // kg m2
+  double centre_ = 0.0;                                         // of the drum along its axle, m
+  std::vector<const FixBoundaryAbsorb *> ground_;               // absorbing boundaries of the bed
   drumlin::Clock clock_;
   drumlin::RollerBody drum_, frame_;
   double gravity_ = 0.0; // m/s2, downwards along the axis

@@ -8,6 +8,10 @@ struct BodyMotion {
   double x = 0.0; ///< m
   double v = 0.0; ///< m/s
   double a = 0.0; ///< m/s2
+  // Of a body that tilts; the tilt is positive if the right end is higher.
+  double tilt = 0.0;         ///< rad
+  double rate = 0.0;         ///< rad/s
+  double acceleration = 0.0; ///< of the tilt of the drum, rad/s2
 };
 
 /// Forces on the drum, N, with the powers and energies that belong to them.
@@ -26,7 +30,8 @@ struct RollerForces {
   double ground_stored = 0.0; ///< J, springs of absorbing boundaries less the work of their constant forces
   double ground_heat =
       0.0; ///< J, dissipated by the dashpots of absorbing boundaries since their first run began
-  bool in_contact = false; ///< whether the soil exerts a force on the drum
+  double left = 0.0, right = 0.0; ///< N, of `contact`, on the halves of a drum that tilts
+  bool in_contact = false;        ///< whether the soil exerts a force on the drum
 };
 
 /// Drum, frame and forces at one time.

@@ -2,10 +2,11 @@
 
 namespace drumlin {
 
-std::string history_header(bool with_frame, bool with_bed, bool travels) {
-  const std::string way = !travels   ? ""
-                          : with_bed ? ",s,pass,traction,torque,work_traction,work_torque"
-                                     : ",s,pass";
+std::string history_header(bool with_frame, bool with_bed, bool travels, bool tilts) {
+  std::string way = !travels   ? ""
+                    : with_bed ? ",s,pass,traction,torque,work_traction,work_torque"
+                               : ",s,pass";
+  if (tilts) way += ",theta_drum,omega_drum,theta_frame,omega_frame,a_left,a_right,F_left,F_right";
   if (!with_frame) return "time,x_drum,v_drum,a_drum,F_contact,F_excitation" + way;
   const std::string roller =
       "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond";
@@ -36,6 +37,13 @@ std::vector<double> history_row(const RollerState &state, const CycleSums &cycle
   return row;
 }
 
+std::vector<double> tilts_of(const RollerState &state, double sensor) {
+  const BodyMotion &drum = state.drum, &frame = state.frame;
+  const double more = sensor * drum.acceleration;
+  return {drum.tilt,     drum.rate,     frame.tilt,        frame.rate,
+          drum.a - more, drum.a + more, state.forces.left, state.forces.right};
+}
+
 std::string cycles_header(bool with_bed, bool absorbs, bool yields, bool travels) {
   const std::string work = travels ? ",work_travel" : "";
   std::string columns = "cycle,time,a_drum_min,a_drum_max,F_contact_min,F_contact_max,contact_share,a1_cos,"
@@ -58,7 +66,9 @@ std::vector<double> cycles_row(const RollerState &state, const CycleSums &cycle,
   row.insert(row.end(), cycle.harmonic.begin(), cycle.harmonic.end());
   const double kinetic = bed != nullptr
                              ? bed->balls.kinetic
-                             : 0.5 * (masses.drum * drum.v * drum.v + masses.frame * frame.v * frame.v);
+                             : 0.5 * (masses.drum * drum.v * drum.v + masses.frame * frame.v * frame.v) +
+                                   0.5 * (masses.drum_inertia * drum.rate * drum.rate +
+                                          masses.frame_inertia * frame.rate * frame.rate);
   const double potential =
       masses.gravity * (bed != nullptr ? bed->raised : masses.drum * drum.x + masses.frame * frame.x);
   row.insert(row.end(), {cycle.work, cycle.contact_dissipated, cycle.bond_dissipated, kinetic, potential,

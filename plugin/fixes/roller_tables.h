@@ -14,8 +14,9 @@ namespace drumlin {
 
 /// Masses and gravity, from which energies of drum and frame follow.
 struct RollerMasses {
-  double drum = 0.0, frame = 0.0; ///< kg
-  double gravity = 0.0;           ///< m/s2, downwards along the axis
+  double drum = 0.0, frame = 0.0;                 ///< kg
+  double gravity = 0.0;                           ///< m/s2, downwards along the axis
+  double drum_inertia = 0.0, frame_inertia = 0.0; ///< kg m2, of bodies that tilt
 };
 
 /// The state of a bed for one row.
@@ -31,10 +32,14 @@ struct BedSample {
 };
 
 /// Header line of the samples, and a row. \param bed nullptr: not a bed; otherwise `with_frame` must be true
-/// \param travels whether place and pass follow the row
-std::string history_header(bool with_frame, bool with_bed, bool travels);
+/// \param travels whether place and pass follow the row \param tilts whether tilts_of() follows it
+std::string history_header(bool with_frame, bool with_bed, bool travels, bool tilts);
 std::vector<double> history_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,
                                 bool with_frame, const BedSample *bed);
+
+/// Tilts of drum and frame, and what the ends of the drum have. \param sensor distance of a_left and a_right
+/// from the middle, m
+std::vector<double> tilts_of(const RollerState &state, double sensor);
 
 /// Header line of the cycles, and a row. \param bed nullptr: not a bed \param absorbs, yields those of
 /// BedSample \param travels whether the work of what drives the roller follows the row

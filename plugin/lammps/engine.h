@@ -153,17 +153,18 @@ double inertia_share(const LAMMPS *lmp);
 
 /// Gives the pair style of the deck the contacts of each pair of types, as lines pair_coeff.
 /// \param table rows of as many contacts as there are types
-/// \param rolling whether the pair style has rolling friction \param yield k2/k1 of the law that yields;
-/// none: the linear law
-inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> &table, bool rolling,
-                         const std::optional<double> &yield) {
+/// \param rubs, rolling whether the pair style has friction and rolling friction \param yield k2/k1 of the
+/// law that yields; none: the linear law
+inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> &table, bool rubs,
+                         bool rolling, const std::optional<double> &yield) {
   const auto types = static_cast<std::size_t>(lmp->atom->ntypes);
   for (std::size_t a = 0; a < types; ++a)
     for (std::size_t b = a; b < types; ++b) {
       const physics::ContactValues &contact = table[a * types + b];
       std::string line = fmt::format("pair_coeff {} {} {:.17g}", a + 1, b + 1, contact.stiffness);
       if (yield) line += fmt::format(" {:.17g}", *yield);
-      line += fmt::format(" {:.17g} {:.17g}", contact.damping_ratio, contact.friction);
+      line += fmt::format(" {:.17g}", contact.damping_ratio);
+      if (rubs) line += fmt::format(" {:.17g}", contact.friction);
       if (rolling) line += fmt::format(" rolling {:.17g}", contact.rolling);
       if (contact.suction > 0.0) line += fmt::format(" suction {:.17g}", contact.suction);
       lmp->input->one(line);

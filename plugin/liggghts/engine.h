@@ -164,10 +164,10 @@ inline double inertia_share(const LAMMPS *lmp) { return lmp->domain->dimension =
 
 /// Gives the pair style of the deck the contacts of each pair of types, as properties.
 /// \param table rows of as many contacts as there are types
-/// \param rolling whether the deck's models have rolling friction \param yield k2/k1 of the law that yields;
-/// none: the linear law
-inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> &table, bool rolling,
-                         const std::optional<double> &yield) {
+/// \param rubs, rolling whether the deck's models have friction and rolling friction \param yield k2/k1 of
+/// the law that yields; none: the linear law
+inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> &table, bool rubs,
+                         bool rolling, const std::optional<double> &yield) {
   const struct {
     const char *property;
     double physics::ContactValues::*value;
@@ -186,6 +186,7 @@ inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> 
     lmp->input->one(line.c_str());
   };
   for (const auto &property : properties) {
+    if (property.value == &physics::ContactValues::friction && !rubs) continue;
     if (property.value == &physics::ContactValues::rolling && !rolling) continue;
     const bool pulled = pulls || find_fix(lmp->modify, property.property) != nullptr;
     if (property.value == &physics::ContactValues::suction && !pulled) continue;

@@ -1,11 +1,10 @@
 #include "chain/two_ends.h"
 
 #include "files/roller.h"
-#include "support/csv.h"
+#include "support/range.h"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,25 +23,7 @@ using Eigen::Vector4d;
 enum Component { drum, frame, drum_tilt, frame_tilt };
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-/// Sums of a number over links: itself, times y, times y^2.
-struct Moments {
-  double all = 0.0, first = 0.0, second = 0.0;
-
-  template <class Links, class Counts>
-  Moments(const Links &links, double AxleLink::*value, const Counts &counts) {
-    double size = 0.0;
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      if (!counts(i)) continue;
-      const AxleLink &link = links[i];
-      all += link.*value;
-      first += link.*value * link.y;
-      second += link.*value * link.y * link.y;
-      size += std::fabs(link.*value * link.y);
-    }
-    // Halves that are equal but for rounding do not couple bounce and tilt.
-    if (std::fabs(first) <= 1e-14 * size) first = 0.0;
-  }
-};
+using Moments = AxleMoments;
 
 /// Stiffness or damping of contacts and bonds.
 Matrix4d matrix_of(const Moments &contacts, const Moments &bonds) {
@@ -64,26 +45,6 @@ Vector4d weight(const TwoEnds &machine) {
 
 bool every(std::size_t /*link*/) { return true; }
 
-double determinant(const Moments &k) { return k.all * k.second - k.first * k.first; }
-
-/// Whether the springs can hold a force in the middle in equilibrium, its moment included.
-bool carry(const Moments &k) { return k.first == 0.0 || determinant(k) > 1e-13 * k.all * k.second; }
-
-/// Place and tilt at which springs carry a force in the middle; of springs that cannot carry its moment, the
-/// place alone.
-Eigen::Vector2d carrying(const Moments &k, double force) {
-  if (k.all <= 0.0) return {0.0, 0.0};
-  if (k.first == 0.0 || !carry(k)) return {force / k.all, 0.0};
-  return {k.second * force / determinant(k), -k.first * force / determinant(k)};
-}
-
-/// Positions at which the springs carry the weights; what they cannot carry is left over.
-Vector4d at_rest(const Moments &contacts, const Moments &bonds, const Vector4d &weight) {
-  const Eigen::Vector2d drums = carrying(contacts, weight[drum] + weight[frame]);
-  const Eigen::Vector2d frames = drums + carrying(bonds, weight[frame]);
-  return {drums[0], frames[0], drums[1], frames[1]};
-}
-
 double norm_of(const Matrix4d &matrix, const Vector4d &mass) {
   const Vector4d scale = mass.cwiseSqrt().cwiseInverse();
   return Matrix4d(scale.asDiagonal() * matrix * scale.asDiagonal()).operatorNorm();
@@ -95,81 +56,19 @@ double rise(const TwoEndsState &state, double y) { return state[4 + drum] + y * 
 
 } // namespace
 
-std::vector<AxleLink> equal_contacts(int count, double width, double k, double c) {
-  std::vector<AxleLink> contacts;
-  for (int j = 1; j <= count; ++j) {
-    const double place = j - 0.5 * (count + 1);
-    contacts.push_back(
-        {count == 1 ? 0.0 : place * (width / std::sqrt(double(count) * count - 1.0)), k / count, c / count});
-  }
-  return contacts;
-}
-
-std::vector<AxleLink> read_contacts(const std::filesystem::path &file, double width) {
-  const auto fail = [&file](const std::string &what, const std::string &value, const std::string &allowed) {
-    throw std::invalid_argument(
-        refusal(fmt::format("{} of '{}'", what, shown(file.string())), value, allowed));
-  };
-  const Table table = [&file] {
-    try {
-      return read_table(file);
-    } catch (const std::runtime_error &error) {
-      throw std::invalid_argument(error.what());
-    }
-  }();
-  const std::string header = fmt::format("{}", fmt::join(table.header(), ","));
-  if (header != contact_columns) fail("header", header, contact_columns);
-  if (table.rows() < 1 || table.rows() > most_contacts)
-    fail("number of rows", fmt::format("{}", table.rows()), fmt::format("1 to {}", most_contacts));
-  const Range place = {-0.5 * width, 0.5 * width, "m"};
-  const Range stiffness = {1e-6, 1e15, "N/m"};
-  const Range damping = {1e-9, 1e15, "N s/m", true};
-  std::vector<AxleLink> contacts(table.rows());
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const auto number = [&](const char *name, std::size_t column, const Range &range,
-                            const std::string &allowed) {
-      const std::string &cell = table.row(row)[column];
-      const auto value = any_number_from_text(cell);
-      if (!value || !range.holds(*value))
-        fail(fmt::format("{} in line {}", name, table.line(row)), cell, allowed);
-      return *value;
-    };
-    contacts[row].y = number("y", 0, place, place.words() + ", within the width of the drum");
-    contacts[row].k = number("k", 1, stiffness, stiffness.words());
-    contacts[row].c = number("c", 2, damping, damping.words());
-  }
-  return contacts;
-}
-
-double drum_width(const Roller &roller) {
-  constexpr double of_axas = 2.13; // m, of a roller of the 12 t class
-  return roller.width.value_or(of_axas);
-}
-
 TwoEnds two_ends(const ChainParameters &chain, const Roller &roller) {
-  const double width = drum_width(roller);
-  const auto inertia = [width](double mass, double gyration) {
-    return mass * (gyration * width) * (gyration * width);
-  };
+  AxleMachine axle = axle_machine(roller, chain.m2, chain.m3, chain.k23, chain.c23);
   TwoEnds machine;
   machine.chain = chain;
-  machine.drum_inertia = roller.drum_inertia.value_or(inertia(chain.m2, roller_file::assumed_drum_gyration));
-  machine.frame_inertia =
-      roller.frame_inertia.value_or(inertia(chain.m3, roller_file::assumed_frame_gyration));
-  machine.exciter = roller.exciter_place;
-  machine.sensor = std::fabs(roller.sensor_place.value_or(0.5 * width));
-  const double distance = roller_file::assumed_bond_distance * width;
-  const double left = roller.springs.left.value_or(distance), right = roller.springs.right.value_or(distance);
-  const auto part = [](double whole, double share) {
-    return std::pair(whole * share, whole * (1.0 - share));
-  };
-  const auto k = part(chain.k23, roller.springs.share_left), c = part(chain.c23, roller.dashpots.share_left);
-  machine.bonds = {{-left, k.first, 0.0},
-                   {right, k.second, 0.0},
-                   {-roller.dashpots.left.value_or(left), 0.0, c.first},
-                   {roller.dashpots.right.value_or(right), 0.0, c.second}};
+  machine.drum_inertia = axle.drum_inertia;
+  machine.frame_inertia = axle.frame_inertia;
+  machine.exciter = axle.exciter;
+  machine.sensor = axle.sensor;
+  machine.bonds = std::move(axle.bonds);
   return machine;
 }
+
+double drum_width(const Roller &roller) { return axle_machine(roller, 0.0, 0.0, 0.0, 0.0).width; }
 
 std::vector<std::string> assumed_ends(const Roller &roller) {
   std::vector<std::string> names;
@@ -192,18 +91,7 @@ std::string TwoEnds::invalid() const {
   const Range inertia = {1e-9, 1e12, "kg m2"};
   if (!inertia.holds(drum_inertia)) return refusal("drum_inertia", drum_inertia, inertia.words());
   if (!inertia.holds(frame_inertia)) return refusal("frame_inertia", frame_inertia, inertia.words());
-  if (chain.g == 0.0) return {};
-  const auto [left, right] = std::minmax_element(
-      contacts.begin(), contacts.end(), [](const AxleLink &a, const AxleLink &b) { return a.y < b.y; });
-  if (left->y != right->y ? left->y >= 0.0 || right->y <= 0.0 : left->y != 0.0)
-    return refusal("contacts", fmt::format("at {:g} to {:g} m", left->y, right->y),
-                   "on both sides of the drum's middle, or all in it: else it has nothing to rest on");
-  const Moments k(contacts, &AxleLink::k, every), k_bonds(bonds, &AxleLink::k, every);
-  if (k_bonds.all <= 0.0) return refusal("bonds", "without stiffness", "a stiffness above 0 [N/m], or g = 0");
-  for (const auto &[name, springs] : {std::pair("contacts", k), {"bonds", k_bonds}})
-    if (!carry(springs))
-      return refusal(name, "almost a single one beside the middle", "stiffness on both sides of it");
-  return {};
+  return chain.g == 0.0 ? std::string() : axle_fault(contacts, bonds);
 }
 
 // ---- linear dynamics ----
@@ -218,7 +106,8 @@ ContactSet::ContactSet(const TwoEnds &machine, std::uint32_t acting) : omega_(ma
   sums_ = {k.all, k.first, c.all, c.first};
   const double C = norm_of(damping, mass);
   rate_ = std::max(omega_, 0.5 * C + std::sqrt(0.25 * C * C + norm_of(stiffness, mass)));
-  rest_ = at_rest(k, k_bonds, weight(machine));
+  const AxlePositions rest = held_by(k, k_bonds, weight(machine)[drum], weight(machine)[frame]);
+  rest_ = Eigen::Map<const Vector4d>(rest.data());
   // Positions at rest far away would cost the digits that they are to keep.
   const double natural = machine.chain.g / (rate_ * rate_);
   if (!(rest_.head<2>().norm() < 1e6 * natural)) rest_.setZero();
@@ -288,18 +177,9 @@ TwoEndsMatrix ContactSet::carry(const TwoEndsMatrix &differences, double time) c
 TwoEndsSolver::TwoEndsSolver(TwoEnds machine) : machine_(std::move(machine)), rest_(TwoEndsState::Zero()) {
   if (const std::string fault = machine_.invalid(); !fault.empty()) throw std::invalid_argument(fault);
   if (machine_.chain.g == 0.0) return;
-  // Contacts that the drum does not reach at rest carry nothing.
-  std::uint32_t pressed = ~0U;
-  for (int pass = 0; pass < 2 * most_contacts; ++pass) {
-    const auto acts = [&pressed](std::size_t contact) { return ((pressed >> contact) & 1U) != 0; };
-    rest_.head<4>() = at_rest(Moments(machine_.contacts, &AxleLink::k, acts),
-                              Moments(machine_.bonds, &AxleLink::k, every), weight(machine_));
-    std::uint32_t found = 0;
-    for (std::size_t j = 0; j < machine_.contacts.size(); ++j)
-      if (height(rest_, machine_.contacts[j].y) < 0.0) found |= 1U << j;
-    if (found == pressed) break;
-    pressed = found;
-  }
+  const AxlePositions rest =
+      at_rest(machine_.contacts, machine_.bonds, weight(machine_)[drum], weight(machine_)[frame]);
+  rest_.head<4>() = Eigen::Map<const Vector4d>(rest.data());
 }
 
 const ContactSet &TwoEndsSolver::set(std::uint32_t acting) const {

@@ -14,6 +14,7 @@
 #include "chain/closed_form.h"
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
+#include "files/axle_links.h"
 
 #include <Eigen/Core>
 
@@ -21,31 +22,11 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace drumlin::post {
-
-/// A spring and a dashpot at a place along the axle: a contact of drum and soil, or a bond of drum and frame.
-struct AxleLink {
-  double y = 0.0; ///< from the middle of the drum, positive to the right [m]
-  double k = 0.0; ///< [N/m]
-  double c = 0.0; ///< [N s/m]
-};
-
-constexpr int most_contacts = 32;
-
-/// `count` equal contacts that share k [N/m] and c [N s/m], at y_j = (j - (count + 1)/2) width/sqrt(count^2 -
-/// 1), which have the rocking stiffness k width^2/12 of a line of springs whatever their number; a single one
-/// in the middle.
-std::vector<AxleLink> equal_contacts(int count, double width, double k, double c);
-
-/// Contacts from a table with the columns of contact_columns. Throws std::invalid_argument with one line if
-/// it cannot be used. \param width of the drum, in which the contacts must lie [m]
-std::vector<AxleLink> read_contacts(const std::filesystem::path &file, double width);
-constexpr const char *contact_columns = "y (m),k (N/m),c (N s/m)";
 
 /// The machine on its soil, and how it starts.
 struct TwoEnds {
