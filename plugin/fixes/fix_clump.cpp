@@ -41,7 +41,7 @@ void FixClump::parse(drumlin::Arguments &in) {
       links_[static_cast<std::size_t>(type)] =
           static_cast<double>(in.integer("keyword links, number of contacts or bonds", 1));
     } else {
-      in.fail("keyword", keyword, "tilt or links");
+      in.fail("argument", keyword, "fix ID group clump, then keywords tilt or links");
     }
   }
 }

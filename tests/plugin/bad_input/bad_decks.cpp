@@ -64,6 +64,21 @@ BadGroup chain_way() {
        {"too slow", way + ", speed 1e-6", "variable speed is '1e-6' ... so that all passes take"}});
 }
 
+BadGroup rocking() {
+  const std::string way = DRUMLIN_SOURCE_DIR "/inputs/chain/way", count = " ... a whole number from 1 to 32";
+  return of_deck(
+      "Rocking", "chain/in.rocking",
+      {{"tilt", "0.2", "a finite number at most 0.1"}, {"tilt", "-0.2", "a finite number at least -0.1"}},
+      {{"no contacts", "contacts 0", "drumlin/ends: contacts is '0'" + count, on_two_ranks},
+       {"too many", "contacts 33", "drumlin/ends: contacts is '33'" + count},
+       {"a part", "contacts 2.5", "drumlin/ends: contacts is '2.5'" + count},
+       {"no file", "contacts none.csv", "drumlin/ends: contacts is 'none.csv'" + count, on_two_ranks},
+       {"another table", "contacts " + way, "header of ' ... y (m),k (N/m),c (N s/m)"},
+       {"stiffness given", "k 1e7, contacts " + way, "variable k is '1e7' ... none with a file of contacts",
+        on_two_ranks},
+       {"a roller that drives", "way " + way, "variable way is ' ... allowed: none"}});
+}
+
 BadGroup chain_choices() {
   return of_deck(
       "ChainChoices", "chain/in.chain",
@@ -396,6 +411,7 @@ BadGroup cost_bed() {
 
 std::vector<BadGroup> bad_variables() {
   return {chain_way(),
+          rocking(),
           chain_choices(),
           chain_numbers(),
           chain_counts(),

@@ -55,6 +55,9 @@ BadGroup drum_excite() {
       {"travel without value", more + " travel", "keyword travel is missing ... the ID of a fix drum/travel"},
       {"unknown roller", more + " travel gravity",
        "keyword travel is 'gravity' ... the ID of a fix drum/travel", on_two_ranks},
+      {"place a word", more + " place left", "keyword place is 'left' ... a finite number"},
+      {"place on a drum that does not tilt", more + " place 0.1",
+       "keyword place is '0.1 m' ... 0, or the group of a fix clump with keyword tilt", on_two_ranks},
       {"unknown keyword", more + " amplitud 5", "keyword is 'amplitud' ... amplitude ... axis"},
       {"empty group", "fix excite nobody drum/excite amplitude 1 omega 100",
        "group is 'nobody', which is empty ... at least one ball", on_two_ranks},
@@ -223,6 +226,26 @@ BadGroup boundary_absorb() {
 BadGroup clump() {
   return Table{"Clump", "fix clump: ", ""}.of({
       {"a word too many", "fix body drum clump rigid", "argument is 'rigid' ... fix ID group clump"},
+      {"tilt about nothing", "fix body drum clump tilt", "keyword tilt, x is missing ... a finite number"},
+      {"tilt without axle", "fix body drum clump tilt 1 0 0",
+       "word behind the axis of keyword tilt is missing ... axle"},
+      {"an axle along the axis", "fix body drum clump tilt 1 0 0 axle 1 1 0",
+       "keyword tilt, axle is '0.707107 0.707107 0', not at right angles ... (cosine 0.707107) ... an axle "
+       "at right angles",
+       on_two_ranks},
+      {"tilt of one ball", "fix body drum clump tilt 1 0 0 axle 0 1 0",
+       "keyword tilt has the group 'drum', whose balls have the inertia '0 kg m2' ... different places",
+       on_two_ranks},
+      {"a large tilt",
+       "displace_atoms frame move 0 0.5 0 units box\nfix body roller clump tilt 1 0 0 axle 0 1 0",
+       "tilt of group roller is ' ... rad' at step 0 ... at most 0.1 rad"},
+      {"balls beside the axle",
+       "group three union soil roller\ndisplace_atoms drum move 0 0.5 0 units box\n"
+       "fix body three clump tilt 1 0 0 axle 0 1 0",
+       "keyword tilt has the group 'three', of which a ball is ' ... off the plane ... balls on one axle"},
+      {"links of no type", "fix body drum clump links 9 1", "keyword links, type is '9' ... 1 to 3"},
+      {"links of no number", "fix body drum clump links 2 0",
+       "keyword links, number of contacts or bonds is '0' ... from 1"},
       {"group all", "fix body all clump", "group is 'all' ... the balls of the body"},
       {"empty group", "fix body nobody clump", "group is 'nobody', which is empty ... balls of the body",
        on_two_ranks},
@@ -341,6 +364,10 @@ BadGroup roller_history() {
       {"bond without ID", more + " bond", "keyword bond is missing ... ID of a fix bond/spring"},
       {"axis with two", more + " axis 0 1", "keyword axis, z is missing ... a finite number"},
       {"axis of no length", more + " axis 0 0 0", "keyword axis is '0 0 0' ... a length"},
+      {"ends of a drum that does not tilt", more + " frame frame ends 0.5",
+       "keyword ends is '0.5 m' ... drum and frame that a fix clump each tilts", on_two_ranks},
+      {"ends without frame", more + " ends 0.5", "keyword frame is missing with keyword ends ... both"},
+      {"ends negative", more + " frame frame ends -1", "keyword ends is '-1' ... >= 0"},
       {"origin with one", more + " origin 0.75",
        "keyword origin, of the frame is missing ... a finite number"},
       {"append a word", more + " append always", "keyword append is 'always' ... yes or no"},
@@ -529,6 +556,18 @@ BadGroup surface() {
       {"unknown keyword", "@ h soil width 0.1", "keyword is 'width' ... spacing or beyond"},
       {"nothing there", "@ h soil spacing 0.1 beyond 1.9 0",
        "group is 'soil' ... one with a ball that a vertical line meets", on_two_ranks},
+  });
+}
+
+BadGroup ends() {
+  return Table{"Ends", "drumlin/ends: ", "drumlin/ends"}.of({
+      {"nothing", "@", "what is given is missing ... machine or laws"},
+      {"a machine without values", "@ machine 2 none", "m2 is missing ... >= 0"},
+      {"laws of words", "@ laws big 0.1", "stiffnesses is 'big' ... > 0", on_two_ranks},
+      {"fewer ratios", "@ laws 1e7,1e7 0.1",
+       "number of damping ratios is '1' ... 2, that of the stiffnesses"},
+      {"more contacts than types", "@ laws 1e7,1e7,1e7 0,0,0",
+       "number of contacts is '3' ... fewer than the types of balls", on_two_ranks},
   });
 }
 
@@ -826,6 +865,7 @@ std::vector<BadGroup> bad_lines() {
           take(),
           variables(),
           variable(),
+          ends(),
           layers(),
           suction(),
           pick(),
