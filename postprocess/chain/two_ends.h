@@ -28,6 +28,12 @@
 
 namespace drumlin::post {
 
+using drumlin::AxleLink;
+using drumlin::contact_columns;
+using drumlin::equal_contacts;
+using drumlin::most_contacts;
+using drumlin::read_contacts;
+
 /// The machine on its soil, and how it starts.
 struct TwoEnds {
   /// Masses, excitation, gravity and transition; its k, D, k23 and c23 have no effect.
