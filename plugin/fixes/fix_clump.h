@@ -1,5 +1,5 @@
 #pragma once
-// fix clump: a group of balls that translates as one rigid body. See plugin/doc/fix_clump.md.
+// fix clump: a group of balls that moves as one rigid body. See plugin/doc/fix_clump.md.
 
 #include "contact/deck_check.h"
 #include "engine.h"
@@ -10,7 +10,8 @@
 namespace LAMMPS_NS {
 
 /// Distributes the sum of the forces on the balls over them in proportion to their masses, so that all have
-/// one acceleration. Contacts of its balls use the mass of the body.
+/// one acceleration. Contacts of its balls use the mass of the body. If fix drum/travel lets the body roll,
+/// their torque about the axle is kept in the torques on the balls.
 class FixClump : public Fix {
 public:
   FixClump(LAMMPS *, int, char **);
@@ -32,6 +33,7 @@ private:
   int common_balls(const Fix &other) const;
   void refuse_unequal_velocities() const;
 
+  const class FixDrumTravel *roller_ = nullptr; // which rolls the body, since the initialization of the run
   double mass_ = 0.0;
   std::array<double, 3> force_{}; // on the balls of this rank, before it is distributed, N
   drumlin::DeckCheck deck_check_;

@@ -7,6 +7,7 @@
 #include "support/clock.h"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,7 +38,9 @@ public:
   /// 0: pass; 1: place, m; 2: its rate, m/s; 3: traction, N; 4: torque, N m; 5, 6: work of the two, J; 7:
   /// time since the first set-up, s; 8: angular velocity of the drum about its axle, rad/s.
   double compute_vector(int) override;
-  /// "axis": the index (0, 1, 2) of the axis along which the motion of the group is prescribed.
+  /// "axis": the index (0, 1, 2) of the axis along which the motion of the group is prescribed. "predict": a
+  /// std::function that adds to the velocities, m/s, that balls would have at the end of the step by the
+  /// forces on them what else changes those of a clump that rolls.
   void *extract(const char *name, int &dimensions) override;
 
   const drumlin::physics::Travel &travel() const { return travel_; }
@@ -55,8 +58,17 @@ public:
   double work() const { return work_ + torque_work_; }
   /// Traction, N, and torque, N m, means of the last step, and their works since the first set-up, J.
   std::array<double, 4> drive() const { return {traction_, torque_, work_, torque_work_}; }
-  /// Kinetic energy, J, that the drum has beyond that of a ball of its mass: of a given moment of inertia.
+  /// Kinetic energy, J, that the drum has beyond that of its balls: of a given moment of inertia.
   double further_kinetic() const;
+
+  /// Whether the drum is the clump of this group and rolls, and whether its balls have begun to: from the
+  /// first set-up on they have different velocities.
+  bool rolls_clump(int its_group) const { return rotation_ != Rotation::none && drum_group_ == its_group; }
+  bool begun() const { return spacing_ != 0.0; }
+  /// Torque, N m, about the axle of a force, N, on an owned ball of the drum.
+  double torque_about_axle(int i, const double *pull) const;
+  /// Direction of the axle about which the drum rolls when it drives towards greater places.
+  const std::array<double, 3> &axle() const { return axle_; }
 
 private:
   enum class Rotation { none, driven, towed };
@@ -65,6 +77,12 @@ private:
     double force = 0.0;  // N, along the axis
     double torque = 0.0; // N m, on the drum about its axle
     double mass = 0.0;   // kg
+    double rise = 0.0;   // m/s, upwards, of a clump that rolls
+  };
+  /// A ball of a clump that rolls, and its place relative to the axle at the angle 0, m.
+  struct BodyBall {
+    double tag;
+    drumlin::physics::InPlane place;
   };
 
   void parse(int narg, char **arg);
@@ -72,6 +90,20 @@ private:
   void find_axle();
   void find_drum();
   void begin();
+  void begin_clump();
+  void check_clump() const;
+  void find_inertia();
+  const drumlin::physics::InPlane &place_in_body(int i) const;
+  drumlin::physics::InPlane in_plane(const double *vector) const;
+  void set_in_plane(double *vector, const drumlin::physics::InPlane &parts) const;
+  void move_clump();
+  void end_clump();
+  void predict_clump(double **velocity) const;
+  /// Calls `act` with the index of each owned ball of a clump that rolls, and its place in the body.
+  template <class Act>
+  void for_each_of_clump(const Act &act) const;
+  void refuse_torn(double reach) const;
+  std::pair<double, double> way_of_centre() const;
   void refuse_leaving(double least, double most) const;
   Sums sums(bool opening) const;
   void rotate(double spin);
@@ -85,15 +117,24 @@ private:
   std::optional<double> radius_, inertia_; // as given, m, kg m2
   std::optional<std::array<double, 3>> up_;
   int drum_group_ = -1, drum_bit_ = 0;
+  bool clump_ = false; // whether the drum is a clump and rolls
 
   class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
   drumlin::Clock clock_;
   drumlin::physics::TravelState before_, now_; // at the start and the end of the step
   std::vector<std::pair<int, double>> places_; // of this rank's balls at the end of the last step: ID, m
+  std::array<double, 3> upwards_{};            // the direction up, at right angles to the way
   std::array<double, 3> axle_{}; // about which the drum rolls when it drives towards greater places
   double rolling_radius_ = 0.0;  // m
   double drum_inertia_ = 0.0;    // kg m2
   double ball_inertia_ = 0.0;    // kg m2, with which the engine counts its energy
+  std::vector<BodyBall> body_;   // all balls of a clump that rolls, on every rank, sorted by tag
+  double start_ = 0.0;           // m, place of its axle along the axis at the first set-up
+  double height_ = 0.0;          // m, of its axle
+  double rise_ = 0.0;            // m/s, the rate of the height
+  double angle_ = 0.0;           // rad, by which it has turned since the first set-up
+  double end_spin_ = 0.0;        // rad/s, of the end of the step by the forces of its start
+  std::function<void(double **)> predict_;
   double spacing_ =
       0.0; // m, distance of the places that balls can have along the axis; 0 before the first set-up
   double moved_ = 0.0;         // m, way along the axis since the first set-up, a multiple of spacing_
