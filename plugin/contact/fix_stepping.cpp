@@ -91,7 +91,6 @@ void FixStepping::init() {
   observers_.find(*modify);
   moved_bits_ = travelling_bits_ = free_bits_ = 0;
   prescribed_bits_ = {};
-  predictions_.clear();
   varies_ = false;
   for (Fix *fix : drumlin::engine::fixes(modify)) {
     const std::string name = fix->style;
@@ -120,8 +119,6 @@ void FixStepping::add_travelling(Fix &fix) {
   const auto *axis = static_cast<const int *>(fix.extract("axis", dimensions));
   prescribed_bits_[static_cast<std::size_t>(*axis)] |= fix.groupbit;
   travelling_bits_ |= fix.groupbit;
-  predictions_.push_back(
-      static_cast<const std::function<void(double **)> *>(fix.extract("predict", dimensions)));
 }
 
 void FixStepping::setup_pre_force(int) {
@@ -378,8 +375,6 @@ void FixStepping::solve_coupled() {
     for (std::size_t a = 0; a < 3; ++a)
       star[a] = is_driven(i, a) ? 2.0 * v[a] - star[a] : v[a] + kick * f[i][a];
   }
-  for (const auto *predict : predictions_)
-    (*predict)(velocity_);
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
   if (force->newton_pair) gather(most_gathered);
   for (Coupled &p : coupled_) {
@@ -526,7 +521,7 @@ void FixStepping::end_of_step() {
   // The part of a shift that passes the constraints is the difference that it makes to the constrained force.
   shifts_.swap(later_);
   later_.clear();
-  // It has no torque, which would act on velocities, too.
+  // Of a clump that rolls it has no torque, which would act on the velocities at the end of the step, too.
   for (Later &item : shifts_)
     for (std::size_t a = 0; a < 3; ++a) {
       item.rest[a] = f[item.i][a];

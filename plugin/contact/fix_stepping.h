@@ -273,8 +273,6 @@ private:
   int moved_bits_ = 0;      // groups of the fixes that move balls otherwise than by the forces on them
   int travelling_bits_ = 0; // groups of the fixes that prescribe the velocity along an axis,
   std::array<int, 3> prescribed_bits_{}; // and the same for each axis
-  std::vector<const std::function<void(double **)> *>
-      predictions_;            // of these fixes: FixDrumTravel::extract()
   int free_bits_ = 0;          // groups of those that integrate, and of frozen balls, whose contacts know it
   bool relative_ = false;      // whether rows of owned balls hold v+ - v(t) in place of v(t)
   std::uint64_t masses_ = 0;   // sum of the bits of the masses of owned balls: changes when a mass does

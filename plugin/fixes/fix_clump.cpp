@@ -34,7 +34,8 @@ void FixClump::init() {
   mass_ = group->mass(igroup);
   roller_ = nullptr;
   for (const Fix *fix : drumlin::engine::fixes(modify))
-    if (const auto *travel = dynamic_cast<const FixDrumTravel *>(fix); travel && travel->rolls_clump(igroup))
+    if (const auto *travel = dynamic_cast<const FixDrumTravel *>(fix);
+        travel != nullptr && balls > 1.0 && travel->rolls_clump(igroup))
       roller_ = travel;
   // 0: not a run, but a command that needs the engine's lists. A body that rolls is checked by fix
   // drum/travel.

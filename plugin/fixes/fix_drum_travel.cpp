@@ -33,9 +33,6 @@ FixDrumTravel::FixDrumTravel(LAMMPS *lammps, int narg, char **arg) : Fix(lammps,
   restart_global = 1;
   time_depend = 1; // the clock counts steps
   parse(narg, arg);
-  predict_ = [this](double **velocity) {
-    if (clump_) predict_clump(velocity);
-  };
 }
 
 void FixDrumTravel::parse(int narg, char **arg) {
@@ -146,7 +143,8 @@ void FixDrumTravel::find_axle() {
                           up_ ? "keyword up has no part" : "there is neither gravity nor a keyword up")));
   Vector way{};
   way[static_cast<std::size_t>(axis_)] = 1.0;
-  upwards_ = physics::scaled(1.0 / size, up);
+  for (std::size_t a = 0; a < 3; ++a)
+    upwards_[a] = up[a] / size;
   axle_ = physics::cross(upwards_, way);
 }
 
@@ -486,10 +484,11 @@ void FixDrumTravel::move_clump() {
   const physics::Turn end(angle_);
   height_ += dt * opening_.rise;
   const double mean_spin = physics::spin_of_chord(change, dt);
-  end_spin_ = rotation_ == Rotation::driven ? now_.velocity / rolling_radius_ : 2.0 * half_spin_ - spin_;
+  const double end_spin = // by the forces of the step before
+      rotation_ == Rotation::driven ? now_.velocity / rolling_radius_ : 2.0 * half_spin_ - spin_;
   for_each_of_clump([&](int i, const physics::InPlane &place) {
     const physics::InPlane lever = end(place), mean = physics::turning_velocity(mean_spin, middle(place));
-    const physics::InPlane last = physics::turning_velocity(end_spin_, lever);
+    const physics::InPlane last = physics::turning_velocity(end_spin, lever);
     Vector origin{}, image{}; // of the origin, as far away from it as that of the ball
     domain->unmap(origin.data(), atom->image[i], image.data());
     const physics::InPlane shift = in_plane(image.data());
@@ -512,22 +511,6 @@ void FixDrumTravel::end_clump() {
   for_each_of_clump([&](int i, const physics::InPlane &place) {
     const physics::InPlane turning = physics::turning_velocity(spin_, turn(place));
     set_in_plane(atom->v[i], {now_.velocity + turning.along, rise_ + turning.up});
-  });
-}
-
-/// The forces on the balls change their velocities as those of a body that does not rotate.
-void FixDrumTravel::predict_clump(double **velocity) const {
-  const double dt = clock_.dt(), change = half_spin_ * dt;
-  const physics::Turn middle(angle_ - 0.5 * change), end(angle_);
-  const double mean_spin = physics::spin_of_chord(change, dt);
-  const double spin =
-      rotation_ == Rotation::driven ? end_spin_ : half_spin_ + spin_change(sums(false).torque);
-  for_each_of_clump([&](int i, const physics::InPlane &place) {
-    const physics::InPlane lever = end(place), mean = physics::turning_velocity(mean_spin, middle(place));
-    physics::InPlane v = in_plane(velocity[i]); // along the axis that of the end of the step
-    v.along += physics::turning_velocity(spin - end_spin_, lever).along;
-    v.up += physics::turning_velocity(spin, lever).up - mean.up;
-    set_in_plane(velocity[i], v);
   });
 }
 
@@ -620,6 +603,5 @@ double FixDrumTravel::compute_vector(int n) {
 
 void *FixDrumTravel::extract(const char *name, int &dimensions) {
   dimensions = 0;
-  if (std::string(name) == "predict") return &predict_;
   return std::string(name) == "axis" ? &axis_ : nullptr;
 }

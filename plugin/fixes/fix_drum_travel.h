@@ -7,7 +7,6 @@
 #include "support/clock.h"
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -38,9 +37,7 @@ public:
   /// 0: pass; 1: place, m; 2: its rate, m/s; 3: traction, N; 4: torque, N m; 5, 6: work of the two, J; 7:
   /// time since the first set-up, s; 8: angular velocity of the drum about its axle, rad/s.
   double compute_vector(int) override;
-  /// "axis": the index (0, 1, 2) of the axis along which the motion of the group is prescribed. "predict": a
-  /// std::function that adds to the velocities, m/s, that balls would have at the end of the step by the
-  /// forces on them what else changes those of a clump that rolls.
+  /// "axis": the index (0, 1, 2) of the axis along which the motion of the group is prescribed.
   void *extract(const char *name, int &dimensions) override;
 
   const drumlin::physics::Travel &travel() const { return travel_; }
@@ -98,7 +95,6 @@ private:
   void set_in_plane(double *vector, const drumlin::physics::InPlane &parts) const;
   void move_clump();
   void end_clump();
-  void predict_clump(double **velocity) const;
   /// Calls `act` with the index of each owned ball of a clump that rolls, and its place in the body.
   template <class Act>
   void for_each_of_clump(const Act &act) const;
@@ -133,8 +129,6 @@ private:
   double height_ = 0.0;          // m, of its axle
   double rise_ = 0.0;            // m/s, the rate of the height
   double angle_ = 0.0;           // rad, by which it has turned since the first set-up
-  double end_spin_ = 0.0;        // rad/s, of the end of the step by the forces of its start
-  std::function<void(double **)> predict_;
   double spacing_ =
       0.0; // m, distance of the places that balls can have along the axis; 0 before the first set-up
   double moved_ = 0.0;         // m, way along the axis since the first set-up, a multiple of spacing_
