@@ -521,15 +521,19 @@ void FixStepping::end_of_step() {
   // The part of a shift that passes the constraints is the difference that it makes to the constrained force.
   shifts_.swap(later_);
   later_.clear();
+  // Of a clump that rolls it has no torque, which would act on the velocities at the end of the step, too.
   for (Later &item : shifts_)
     for (std::size_t a = 0; a < 3; ++a) {
       item.rest[a] = f[item.i][a];
+      item.torque[a] = atom->torque[item.i][a];
       f[item.i][a] += item.shift[a];
     }
   constrain(!shifts_.empty());
   for (Later &item : shifts_)
-    for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t a = 0; a < 3; ++a) {
       item.shift[a] = f[item.i][a] - item.rest[a];
+      atom->torque[item.i][a] = item.torque[a];
+    }
 }
 
 void FixStepping::reset_dt() { told_dt_ = update->dt; }

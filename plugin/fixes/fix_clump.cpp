@@ -1,6 +1,7 @@
 #include "fixes/fix_clump.h"
 
 #include "contact/contact_source.h"
+#include "fixes/fix_drum_travel.h"
 #include "support/arguments.h"
 
 #include <algorithm>
@@ -57,12 +58,23 @@ void FixClump::init() {
                    "fix clump: group is '{}', which is empty; allowed: a group with the balls of the body",
                    group->names[igroup])));
   mass_ = group->mass(igroup);
+  roller_ = nullptr;
+  for (const Fix *fix : drumlin::engine::fixes(modify))
+    if (const auto *travel = dynamic_cast<const FixDrumTravel *>(fix);
+        travel != nullptr && balls > 1.0 && travel->rolls_clump(igroup))
+      roller_ = travel;
   if (axes_) {
     refuse_other_shape();
     refuse_torques();
+    if (roller_ != nullptr)
+      error->all(FLERR, drumlin::engine::error_text(
+                            fmt::format("fix clump: keyword tilt has the group '{}', which fix {} rolls; "
+                                        "allowed: a body that tilts or one that rolls",
+                                        group->names[igroup], roller_->id)));
   }
-  if (update->whichflag != 0)
-    refuse_unequal_velocities(); // 0: not a run, but a command that needs the engine's lists
+  // 0: not a run, but a command that needs the engine's lists. A body that rolls is checked by fix
+  // drum/travel.
+  if (update->whichflag != 0 && (roller_ == nullptr || !roller_->begun())) refuse_unequal_velocities();
   Clumps clumps;
   clumps.find(*modify);
   for (const FixClump *other : clumps.all())
@@ -213,16 +225,18 @@ void FixClump::setup(int vflag) { post_force(vflag); }
 void FixClump::post_force(int) {
   double **f = atom->f;
   force_ = {};
-  double mass = 0.0; // of this rank's balls, which may have changed
+  double mass = 0.0;   // of this rank's balls, which may have changed
+  double torque = 0.0; // about the axle of a body that rolls
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {
       mass += atom->rmass[i];
       for (std::size_t a = 0; a < 3; ++a)
         force_[a] += f[i][a];
+      if (roller_ != nullptr) torque += roller_->torque_about_axle(i, f[i]);
     }
-  const std::array<double, 4> mine{force_[0], force_[1], force_[2], mass};
-  std::array<double, 4> all{};
-  MPI_Allreduce(mine.data(), all.data(), 4, MPI_DOUBLE, MPI_SUM, world);
+  const std::array<double, 5> mine{force_[0], force_[1], force_[2], mass, torque};
+  std::array<double, 5> all{};
+  MPI_Allreduce(mine.data(), all.data(), roller_ != nullptr ? 5 : 4, MPI_DOUBLE, MPI_SUM, world);
   drumlin::engine::follow_mass(mass_, all[3]);
   if (axes_) {
     const physics::AxleSums sums = axle_sums();
@@ -230,9 +244,13 @@ void FixClump::post_force(int) {
     return distribute(sums);
   }
   for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit)
+    if (atom->mask[i] & groupbit) {
+      const double share = atom->rmass[i] / mass_;
       for (std::size_t a = 0; a < 3; ++a)
-        f[i][a] = all[a] * (atom->rmass[i] / mass_);
+        f[i][a] = all[a] * share;
+      for (std::size_t a = 0; roller_ != nullptr && a < 3; ++a)
+        atom->torque[i][a] += all[4] * share * roller_->axle()[a];
+    }
 }
 
 double FixClump::compute_vector(int n) {

@@ -16,7 +16,8 @@ class Arguments;
 namespace LAMMPS_NS {
 
 /// Distributes the sum of the forces on the balls over them in proportion to their masses, so that all have
-/// one acceleration. A body that may tilt also takes the moment of these forces about its centre of mass.
+/// one acceleration. A body that may tilt also takes the moment of these forces about its centre of mass; of a
+/// body that fix drum/travel lets roll their torque about the axle is kept in the torques on the balls.
 /// Contacts of its balls use the mass of the body.
 class FixClump : public Fix {
 public:
@@ -57,6 +58,7 @@ private:
 
   std::optional<drumlin::physics::TiltAxes> axes_;
   std::vector<double> links_; // of each type: in how many contacts or bonds the body is held; 0: not given
+  const class FixDrumTravel *roller_ = nullptr; // which rolls the body, since the initialization of the run
   double mass_ = 0.0;
   std::array<double, 3> force_{}; // on the balls of this rank, before it is distributed, N
   drumlin::DeckCheck deck_check_;

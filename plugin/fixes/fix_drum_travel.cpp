@@ -1,6 +1,7 @@
 #include "fixes/fix_drum_travel.h"
 
 #include "contact/fix_stepping.h"
+#include "fixes/fix_clump.h"
 #include "support/arguments.h"
 #include "support/restart_record.h"
 
@@ -143,47 +144,106 @@ void FixDrumTravel::find_axle() {
   Vector way{};
   way[static_cast<std::size_t>(axis_)] = 1.0;
   for (std::size_t a = 0; a < 3; ++a)
-    axle_[a] = (up[(a + 1) % 3] * way[(a + 2) % 3] - up[(a + 2) % 3] * way[(a + 1) % 3]) / size;
+    upwards_[a] = up[a] / size;
+  axle_ = physics::cross(upwards_, way);
 }
 
-/// The ball that rolls.
+/// The ball or the clump that rolls.
 void FixDrumTravel::find_drum() {
-  if (rotation_ == Rotation::none) return;
-  std::array<double, 4> all{}; // balls, those that drive, mass, radius
+  clump_ = false;
+  if (rotation_ == Rotation::none) return body_.clear();
+  std::array<double, 3> all{}; // balls, those that drive, radius
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & drum_bit_) {
-      const std::array<double, 4> one{1.0, atom->mask[i] & groupbit ? 1.0 : 0.0, atom->rmass[i],
-                                      atom->radius[i]};
-      for (std::size_t n = 0; n < 4; ++n)
+      const std::array<double, 3> one{1.0, atom->mask[i] & groupbit ? 1.0 : 0.0, atom->radius[i]};
+      for (std::size_t n = 0; n < 3; ++n)
         all[n] += one[n];
     }
-  MPI_Allreduce(MPI_IN_PLACE, all.data(), 4, MPI_DOUBLE, MPI_SUM, world);
-  if (all[0] != 1.0 || all[1] != 1.0)
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), 3, MPI_DOUBLE, MPI_SUM, world);
+  bool is_clump = false;
+  for (const Fix *fix : engine::fixes(modify))
+    is_clump = is_clump || (dynamic_cast<const FixClump *>(fix) != nullptr && fix->igroup == drum_group_);
+  clump_ = is_clump && all[0] > 1.0;
+  if ((all[0] != 1.0 && !clump_) || all[1] != all[0])
     error->all(FLERR,
                engine::error_text(fmt::format(
                    "{}: keyword drum is '{}', a group of {:.0f} balls, of which {:.0f} drive; allowed: "
-                   "a group of one ball that drives, or rotation none",
+                   "one ball that drives, the group of a fix clump that drives, or rotation none",
                    command, group->names[drum_group_], all[0], all[1])));
-  rolling_radius_ = radius_.value_or(all[3]);
-  ball_inertia_ = engine::inertia_share(lmp) * all[2] * all[3] * all[3];
+  if (clump_ && rotation_ == Rotation::driven && !radius_)
+    error->all(FLERR,
+               engine::error_text(fmt::format("{}: keyword radius is missing, and drum is '{}', a clump; "
+                                              "allowed: radius R, at which it rolls",
+                                              command, group->names[drum_group_])));
+  rolling_radius_ = radius_.value_or(all[2]);
+}
+
+/// Moments of inertia about the axle: that of the drum, and that with which the engine counts its energy.
+void FixDrumTravel::find_inertia() {
+  if (rotation_ == Rotation::none) return;
+  const double share = engine::inertia_share(lmp);
+  ball_inertia_ = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & drum_bit_)
+      ball_inertia_ += share * atom->rmass[i] * atom->radius[i] * atom->radius[i];
+  for_each_of_clump([&](int i, const physics::InPlane &place) {
+    ball_inertia_ += atom->rmass[i] * (place.along * place.along + place.up * place.up);
+  });
+  MPI_Allreduce(MPI_IN_PLACE, &ball_inertia_, 1, MPI_DOUBLE, MPI_SUM, world);
   drum_inertia_ = inertia_.value_or(ball_inertia_);
+}
+
+template <class Act>
+void FixDrumTravel::for_each_of_clump(const Act &act) const {
+  if (!clump_) return;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & drum_bit_) act(i, place_in_body(i));
+}
+
+const physics::InPlane &FixDrumTravel::place_in_body(int i) const {
+  return std::lower_bound(body_.begin(), body_.end(), static_cast<double>(atom->tag[i]),
+                          [](const BodyBall &ball, double tag) { return ball.tag < tag; })
+      ->place;
+}
+
+physics::InPlane FixDrumTravel::in_plane(const double *vector) const {
+  return {vector[axis_], along(upwards_, vector)};
+}
+
+/// Replaces the parts of a vector in the plane in which the drum rolls.
+void FixDrumTravel::set_in_plane(double *vector, const physics::InPlane &parts) const {
+  const double before = along(upwards_, vector);
+  for (std::size_t a = 0; a < 3; ++a)
+    vector[a] = (vector[a] - upwards_[a] * before) + upwards_[a] * parts.up;
+  vector[axis_] = parts.along;
+}
+
+double FixDrumTravel::torque_about_axle(int i, const double *pull) const {
+  Vector x{};
+  domain->unmap(atom->x[i], atom->image[i], x.data());
+  const physics::InPlane place = in_plane(x.data()), by = in_plane(pull);
+  return (place.up - height_) * by.along - (place.along - start_ - moved_) * by.up;
 }
 
 /// Velocities must be right before forces are computed for the set-up of the run.
 void FixDrumTravel::setup_pre_exchange() {
   clock_.set_up(update->ntimestep, update->dt);
   now_ = physics::travel_state(travel_, clock_.time(update->ntimestep));
-  if (spacing_ == 0.0)
+  if (!begun())
     begin();
   else if (const double place = on_grid(now_.distance); place != moved_)
     error->all(FLERR, engine::error_text(fmt::format(
                           "{}: way driven is '{:.9g} m' after {:.9g} s, and {:.9g} m by these keywords; "
                           "allowed: those of the run before",
                           command, moved_, clock_.time(update->ntimestep), place)));
+  else if (clump_)
+    check_clump();
+  find_inertia();
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) atom->v[i][axis_] = now_.velocity;
   if (rotation_ == Rotation::driven) spin_ = now_.velocity / rolling_radius_;
   rotate(spin_);
+  end_clump();
 }
 
 /// The positions along the axis are multiples of a power of 2, as the way driven is: then no step rounds
@@ -192,18 +252,17 @@ void FixDrumTravel::begin() {
   const double infinite = std::numeric_limits<double>::infinity();
   std::array<double, 2> ends{-infinite, -infinite}; // of the balls' negative places, and places
   Vector x{};
-  double spin = 0.0;
+  std::array<double, 2> spin{}; // sum over the drum's balls, and their number
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {
       domain->unmap(atom->x[i], atom->image[i], x.data());
       const double place = x[static_cast<std::size_t>(axis_)];
       ends = {std::max(ends[0], -place), std::max(ends[1], place)};
-      if (atom->mask[i] & drum_bit_) spin = along(axle_, atom->omega[i]);
+      if (atom->mask[i] & drum_bit_) spin = {spin[0] + along(axle_, atom->omega[i]), spin[1] + 1.0};
     }
   MPI_Allreduce(MPI_IN_PLACE, ends.data(), 2, MPI_DOUBLE, MPI_MAX, world);
-  const double sign = travel_.to > travel_.from ? 1.0 : -1.0;
-  refuse_leaving(-ends[0] + std::min(0.0, sign * travel_.reach()),
-                 ends[1] + std::max(0.0, sign * travel_.reach()));
+  const auto [low, high] = way_of_centre();
+  refuse_leaving(low - ends[0], ends[1] + high);
   int exponent = 0;
   std::frexp(std::max({ends[0], ends[1], 0.0}) + travel_.reach(), &exponent);
   spacing_ = std::ldexp(1.0, exponent - std::numeric_limits<double>::digits);
@@ -213,8 +272,119 @@ void FixDrumTravel::begin() {
       place = on_grid(place);
     }
   moved_ = 0.0;
+  if (clump_) begin_clump();
   if (rotation_ != Rotation::towed) return;
-  MPI_Allreduce(&spin, &spin_, 1, MPI_DOUBLE, MPI_SUM, world); // a towed drum may turn already
+  MPI_Allreduce(MPI_IN_PLACE, spin.data(), 2, MPI_DOUBLE, MPI_SUM, world);
+  spin_ = spin[0] / spin[1]; // a towed drum may turn already
+}
+
+/// Notes the places of the clump's balls relative to the axle, which goes through its centre of mass.
+void FixDrumTravel::begin_clump() {
+  struct Found { // numbers only, for MPI
+    double tag, mass, along, up, rise;
+  };
+  constexpr int numbers = sizeof(Found) / sizeof(double);
+  std::vector<Found> mine;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & drum_bit_) {
+      Vector x{};
+      domain->unmap(atom->x[i], atom->image[i], x.data());
+      const physics::InPlane place = in_plane(x.data());
+      mine.push_back({static_cast<double>(atom->tag[i]), atom->rmass[i], place.along, place.up,
+                      along(upwards_, atom->v[i])});
+    }
+  const int count = numbers * static_cast<int>(mine.size());
+  std::vector<int> counts(static_cast<std::size_t>(comm->nprocs)), begins(counts.size());
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (std::size_t n = 1; n < counts.size(); ++n)
+    begins[n] = begins[n - 1] + counts[n - 1];
+  std::vector<Found> all(static_cast<std::size_t>((begins.back() + counts.back()) / numbers));
+  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(), MPI_DOUBLE, world);
+  std::sort(all.begin(), all.end(), [](const Found &a, const Found &b) { return a.tag < b.tag; });
+
+  double mass = 0.0;
+  for (const Found &ball : all)
+    mass += ball.mass;
+  const auto mean = [&](const auto &of) {
+    double sum = 0.0;
+    for (const Found &ball : all)
+      sum += ball.mass * of(ball);
+    return sum / mass;
+  };
+  start_ = on_grid(mean([](const Found &ball) { return ball.along; }));
+  height_ = mean([](const Found &ball) { return ball.up; });
+  rise_ = mean([](const Found &ball) { return ball.rise; });
+  angle_ = 0.0;
+  // The places in the body have the mean 0 to the rounding of a radius, also far from the origin: the mean
+  // velocity of its balls is then that of the axle.
+  const physics::InPlane middle{mean([this](const Found &ball) { return ball.along - start_; }),
+                                mean([this](const Found &ball) { return ball.up - height_; })};
+  double reach = 0.0; // of the body's balls, m, from the axle
+  body_.clear();
+  for (const Found &ball : all) {
+    body_.push_back({ball.tag, {ball.along - start_ - middle.along, ball.up - height_ - middle.up}});
+    reach = std::max(reach, std::hypot(body_.back().place.along, body_.back().place.up));
+  }
+  const auto [low, high] = way_of_centre();
+  refuse_leaving(start_ - reach + low, start_ + reach + high);
+  refuse_torn(reach);
+}
+
+/// Balls on both sides of a periodic boundary are one body only if their images say so.
+void FixDrumTravel::refuse_torn(double reach) const {
+  for (std::size_t a = 0; a < 3; ++a)
+    if (axle_[a] == 0.0 && domain->periodicity[a] && 4.0 * reach > domain->prd[a])
+      error->all(FLERR, engine::error_text(fmt::format(
+                            "{}: keyword drum is '{}', a clump of which a ball is {:.6g} m away from the "
+                            "middle; allowed: at most a quarter of the periodic box along {}, {:.6g} m, and "
+                            "images (command set) side by side",
+                            command, group->names[drum_group_], reach, "xyz"[a], 0.25 * domain -> prd[a])));
+}
+
+/// How far the group comes from where it stands at first towards smaller and greater places, m.
+std::pair<double, double> FixDrumTravel::way_of_centre() const {
+  const double sign = travel_.to > travel_.from ? 1.0 : -1.0;
+  return {std::min(0.0, sign * travel_.reach()), std::max(0.0, sign * travel_.reach())};
+}
+
+/// The clump must still be the body that has rolled before.
+void FixDrumTravel::check_clump() const {
+  constexpr double rounding = 1e-9;
+  std::array<double, 2> counts{}; // balls, and those that have rolled
+  std::array<double, 2> worst{};  // distances from place, m, and velocity, m/s, in the body
+  const physics::Turn turn(angle_);
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & drum_bit_) {
+      counts[0] += 1.0;
+      const auto same = [&](const BodyBall &ball) { return ball.tag == static_cast<double>(atom->tag[i]); };
+      const auto ball = std::find_if(body_.begin(), body_.end(), same);
+      if (ball == body_.end()) continue;
+      counts[1] += 1.0;
+      Vector x{};
+      domain->unmap(atom->x[i], atom->image[i], x.data());
+      const physics::InPlane place = in_plane(x.data()), v = in_plane(atom->v[i]), lever = turn(ball->place);
+      const physics::InPlane turning = physics::turning_velocity(spin_, lever);
+      worst[0] = std::max({worst[0], std::fabs(place.along - start_ - moved_ - lever.along),
+                           std::fabs(place.up - height_ - lever.up)});
+      worst[1] = std::max({worst[1], std::fabs(v.along - now_.velocity - turning.along),
+                           std::fabs(v.up - rise_ - turning.up)});
+    }
+  MPI_Allreduce(MPI_IN_PLACE, counts.data(), 2, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, worst.data(), 2, MPI_DOUBLE, MPI_MAX, world);
+  const auto rolled = static_cast<double>(body_.size());
+  if (counts[0] != rolled || counts[1] != rolled)
+    error->all(FLERR, engine::error_text(fmt::format(
+                          "{}: keyword drum is '{}', a clump of {:.0f} balls, of which {:.0f} are among the "
+                          "{:.0f} that rolled in the run before; allowed: the clump of the run before",
+                          command, group->names[drum_group_], counts[0], counts[1], rolled)));
+  const double size = std::fabs(start_) + std::fabs(moved_) + std::fabs(height_) + travel_.reach();
+  const double speed = travel_.speed + std::fabs(rise_);
+  if (worst[0] > rounding * size || worst[1] > rounding * speed)
+    error->all(FLERR,
+               engine::error_text(fmt::format(
+                   "{}: keyword drum is '{}', a clump with balls that are {:.3g} m and {:.3g} m/s away from "
+                   "where it rolls; allowed: places and velocities as the run before has left them",
+                   command, group->names[drum_group_], worst[0], worst[1])));
 }
 
 /// \param least, most coordinates that a ball of the group comes to, m
@@ -246,17 +416,21 @@ void FixDrumTravel::setup(int) {
 /// Force along the way and torque about the axle, of all but what drives. \param opening whether the forces
 /// are those of an opening half kick
 FixDrumTravel::Sums FixDrumTravel::sums(bool opening) const {
-  std::array<double, 3> all{};
+  std::array<double, 5> all{};
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {
       all[0] += atom->f[i][axis_];
       all[2] += atom->rmass[i];
-      if (rotation_ != Rotation::none && (atom->mask[i] & drum_bit_)) all[1] += along(axle_, atom->torque[i]);
+      if (rotation_ == Rotation::none || !(atom->mask[i] & drum_bit_)) continue;
+      all[1] += along(axle_, atom->torque[i]);
+      if (!clump_) continue;
+      all[3] += atom->rmass[i] * along(upwards_, atom->v[i]);
+      all[4] += atom->rmass[i];
     }
   if (opening && stepping_ != nullptr)
     all[0] -= stepping_->position_corrections(groupbit)[static_cast<std::size_t>(axis_)];
-  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, all.data(), 3, MPI_DOUBLE, MPI_SUM, world);
-  return {all[0], all[1], all[2]};
+  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, all.data(), clump_ ? 5 : 3, MPI_DOUBLE, MPI_SUM, world);
+  return {all[0], all[1], all[2], clump_ ? all[3] / all[4] : 0.0};
 }
 
 void FixDrumTravel::rotate(double spin) {
@@ -271,7 +445,8 @@ void FixDrumTravel::rotate(double spin) {
 void FixDrumTravel::note_places() {
   places_.clear();
   for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit) places_.emplace_back(atom->tag[i], atom->x[i][axis_]);
+    if ((atom->mask[i] & groupbit) && !(clump_ && (atom->mask[i] & drum_bit_)))
+      places_.emplace_back(atom->tag[i], atom->x[i][axis_]);
 }
 
 void FixDrumTravel::initial_integrate(int) {
@@ -285,7 +460,7 @@ void FixDrumTravel::initial_integrate(int) {
   moved_ = moved;
   auto place = places_.begin();
   for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit) {
+    if ((atom->mask[i] & groupbit) && !(clump_ && (atom->mask[i] & drum_bit_))) {
       while (place != places_.end() && place->first != atom->tag[i])
         ++place;
       if (place == places_.end()) break;
@@ -296,6 +471,47 @@ void FixDrumTravel::initial_integrate(int) {
   half_spin_ =
       rotation_ == Rotation::driven ? half_velocity_ / rolling_radius_ : spin_ + spin_change(opening_.torque);
   rotate(half_spin_);
+  move_clump();
+}
+
+/// Turns the body by the angle of the step, and moves its balls with it. Their velocities in the middle of
+/// the step lead from the old places to the new ones.
+void FixDrumTravel::move_clump() {
+  if (!clump_) return;
+  const double dt = clock_.dt(), change = half_spin_ * dt;
+  const physics::Turn middle(angle_ + 0.5 * change);
+  angle_ = rotation_ == Rotation::driven ? moved_ / rolling_radius_ : angle_ + change;
+  const physics::Turn end(angle_);
+  height_ += dt * opening_.rise;
+  const double mean_spin = physics::spin_of_chord(change, dt);
+  const double end_spin = // by the forces of the step before
+      rotation_ == Rotation::driven ? now_.velocity / rolling_radius_ : 2.0 * half_spin_ - spin_;
+  for_each_of_clump([&](int i, const physics::InPlane &place) {
+    const physics::InPlane lever = end(place), mean = physics::turning_velocity(mean_spin, middle(place));
+    const physics::InPlane last = physics::turning_velocity(end_spin, lever);
+    Vector origin{}, image{}; // of the origin, as far away from it as that of the ball
+    domain->unmap(origin.data(), atom->image[i], image.data());
+    const physics::InPlane shift = in_plane(image.data());
+    set_in_plane(atom->x[i], {start_ + moved_ + lever.along - shift.along, height_ + lever.up - shift.up});
+    set_in_plane(atom->v[i], {half_velocity_ + mean.along, opening_.rise + mean.up});
+    if (stepping_ == nullptr) return;
+    Vector before{};
+    std::copy_n(stepping_->velocity_before(i), 3, before.begin());
+    set_in_plane(before.data(), {2.0 * (half_velocity_ + mean.along) - now_.velocity - last.along,
+                                 rise_ + 2.0 * mean.up - last.up});
+    for (int a = 0; a < 3; ++a)
+      stepping_->prescribe(i, a, before[static_cast<std::size_t>(a)]);
+  });
+}
+
+/// Gives the balls of the body their velocities at the end of the step.
+void FixDrumTravel::end_clump() {
+  if (!clump_) return;
+  const physics::Turn turn(angle_);
+  for_each_of_clump([&](int i, const physics::InPlane &place) {
+    const physics::InPlane turning = physics::turning_velocity(spin_, turn(place));
+    set_in_plane(atom->v[i], {now_.velocity + turning.along, rise_ + turning.up});
+  });
 }
 
 /// Prescribes the velocities at the end of the step. The traction is what the change of momentum needs beyond
@@ -316,6 +532,8 @@ void FixDrumTravel::final_integrate() {
   else
     spin_ = half_spin_ + spin_change(closing.torque);
   rotate(spin_);
+  rise_ = closing.rise;
+  end_clump();
   if (rotation_ == Rotation::towed) return; // nothing turns it but the soil
   const double twist = 0.5 * dt * (opening_.torque + closing.torque);
   const double spun = drum_inertia_ * (spin_ - spin_before);
@@ -346,7 +564,14 @@ double FixDrumTravel::further_kinetic() const {
 void FixDrumTravel::write_restart(FILE *file) {
   const auto clock = clock_.state();
   std::vector<double> state(clock.begin(), clock.end());
-  state.insert(state.end(), {spacing_, moved_, spin_, traction_, torque_, work_, torque_work_});
+  // A negative spacing says that a clump follows.
+  const double spacing = body_.empty() ? spacing_ : -spacing_;
+  state.insert(state.end(), {spacing, moved_, spin_, traction_, torque_, work_, torque_work_});
+  if (!body_.empty()) {
+    state.insert(state.end(), {static_cast<double>(body_.size()), start_, height_, rise_, angle_});
+    for (const BodyBall &ball : body_)
+      state.insert(state.end(), {ball.tag, ball.place.along, ball.place.up});
+  }
   drumlin::write_restart_record(file, comm->me, state);
 }
 
@@ -356,6 +581,15 @@ void FixDrumTravel::restart(char *buffer) {
   state += clock_.state().size();
   for (double *number : {&spacing_, &moved_, &spin_, &traction_, &torque_, &work_, &torque_work_})
     *number = *state++;
+  if (spacing_ >= 0.0) return;
+  spacing_ = -spacing_;
+  body_.resize(static_cast<std::size_t>(*state++));
+  for (double *number : {&start_, &height_, &rise_, &angle_})
+    *number = *state++;
+  for (BodyBall &ball : body_) {
+    ball = {state[0], {state[1], state[2]}};
+    state += 3;
+  }
 }
 
 double FixDrumTravel::compute_scalar() { return travel_.duration(); }

@@ -55,8 +55,17 @@ public:
   double work() const { return work_ + torque_work_; }
   /// Traction, N, and torque, N m, means of the last step, and their works since the first set-up, J.
   std::array<double, 4> drive() const { return {traction_, torque_, work_, torque_work_}; }
-  /// Kinetic energy, J, that the drum has beyond that of a ball of its mass: of a given moment of inertia.
+  /// Kinetic energy, J, that the drum has beyond that of its balls: of a given moment of inertia.
   double further_kinetic() const;
+
+  /// Whether the drum is the clump of this group and rolls, and whether its balls have begun to: from the
+  /// first set-up on they have different velocities.
+  bool rolls_clump(int its_group) const { return rotation_ != Rotation::none && drum_group_ == its_group; }
+  bool begun() const { return spacing_ != 0.0; }
+  /// Torque, N m, about the axle of a force, N, on an owned ball of the drum.
+  double torque_about_axle(int i, const double *pull) const;
+  /// Direction of the axle about which the drum rolls when it drives towards greater places.
+  const std::array<double, 3> &axle() const { return axle_; }
 
 private:
   enum class Rotation { none, driven, towed };
@@ -65,6 +74,12 @@ private:
     double force = 0.0;  // N, along the axis
     double torque = 0.0; // N m, on the drum about its axle
     double mass = 0.0;   // kg
+    double rise = 0.0;   // m/s, upwards, of a clump that rolls
+  };
+  /// A ball of a clump that rolls, and its place relative to the axle at the angle 0, m.
+  struct BodyBall {
+    double tag;
+    drumlin::physics::InPlane place;
   };
 
   void parse(int narg, char **arg);
@@ -72,6 +87,19 @@ private:
   void find_axle();
   void find_drum();
   void begin();
+  void begin_clump();
+  void check_clump() const;
+  void find_inertia();
+  const drumlin::physics::InPlane &place_in_body(int i) const;
+  drumlin::physics::InPlane in_plane(const double *vector) const;
+  void set_in_plane(double *vector, const drumlin::physics::InPlane &parts) const;
+  void move_clump();
+  void end_clump();
+  /// Calls `act` with the index of each owned ball of a clump that rolls, and its place in the body.
+  template <class Act>
+  void for_each_of_clump(const Act &act) const;
+  void refuse_torn(double reach) const;
+  std::pair<double, double> way_of_centre() const;
   void refuse_leaving(double least, double most) const;
   Sums sums(bool opening) const;
   void rotate(double spin);
@@ -85,15 +113,22 @@ private:
   std::optional<double> radius_, inertia_; // as given, m, kg m2
   std::optional<std::array<double, 3>> up_;
   int drum_group_ = -1, drum_bit_ = 0;
+  bool clump_ = false; // whether the drum is a clump and rolls
 
   class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
   drumlin::Clock clock_;
   drumlin::physics::TravelState before_, now_; // at the start and the end of the step
   std::vector<std::pair<int, double>> places_; // of this rank's balls at the end of the last step: ID, m
+  std::array<double, 3> upwards_{};            // the direction up, at right angles to the way
   std::array<double, 3> axle_{}; // about which the drum rolls when it drives towards greater places
   double rolling_radius_ = 0.0;  // m
   double drum_inertia_ = 0.0;    // kg m2
   double ball_inertia_ = 0.0;    // kg m2, with which the engine counts its energy
+  std::vector<BodyBall> body_;   // all balls of a clump that rolls, on every rank, sorted by tag
+  double start_ = 0.0;           // m, place of its axle along the axis at the first set-up
+  double height_ = 0.0;          // m, of its axle
+  double rise_ = 0.0;            // m/s, the rate of the height
+  double angle_ = 0.0;           // rad, by which it has turned since the first set-up
   double spacing_ =
       0.0; // m, distance of the places that balls can have along the axis; 0 before the first set-up
   double moved_ = 0.0;         // m, way along the axis since the first set-up, a multiple of spacing_

@@ -1,8 +1,10 @@
-// A drum that fix drum/travel moves over a floor or a row of balls, in both engines: its place against the
-// formulas of the page of the fix, restarts, ranks, friction that makes it roll, and the energy balance.
+// A drum, a ball or a clump, that fix drum/travel moves over a floor or a row of balls, in both engines: its
+// place against the formulas of the page of the fix, restarts, ranks, friction that makes it roll, a clump
+// against its equations of motion, and the energy balance.
 #include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
 #include "tests/support/frame_distance.h"
+#include "tests/support/ode.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +12,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::test {
@@ -103,6 +106,132 @@ TEST_P(TravellingDrum, IsWhereTheProgrammeSaysToRoundingAlsoFarFromZero) {
   }
 }
 
+/// Variables of a drum that is a ring of 24 balls.
+Variables ring(const std::string &words, Variables more = {}) {
+  more.emplace_back("clump", "24");
+  more.emplace_back("words", words);
+  return more;
+}
+
+// A ring that rolls while it falls: the axle goes along the way and falls freely, the balls go around it.
+TEST_P(TravellingDrum, LetsTheBallsOfAClumpRunOnCycloidsAlsoFarFromZero) {
+  struct Kind {
+    const char *axis;
+    double x0;
+    Variables more;
+  };
+  const double third = -1e4 - 1.0 / 3.0;
+  for (const Kind &kind : {Kind{"x", 0, {}}, Kind{"x", 1e4, {}}, Kind{"x", third, {}}, Kind{"y", 0, {}},
+                           Kind{"x", 0, {{"first", "350"}, {"then", "0.25"}}}}) {
+    const Scratch folder;
+    well(run(
+        "travel", folder,
+        ring(std::string("from 0 to 0.3 speed 3 ramp 0.01 rotation driven radius 0.2 axis ") + kind.axis,
+             with(kind.more, {{"x0", number(kind.x0)}, {"lift", "0.6"}, {"steps", "900"}, {"every", "5"}}))));
+    const Programme programme{0.3, 3, 0.01, 0};
+    const double spacing = std::nextafter(std::fabs(kind.x0) + 1, 1e9) - std::fabs(kind.x0) - 1;
+    const bool along_x = kind.axis[0] == 'x';
+    double worst_x = 0, worst_v = 0;
+    for (const Frame &frame : read_dump(folder / "balls.txt")) {
+      const auto steps = static_cast<double>(frame.step);
+      const double t = kind.more.empty()
+                           ? steps * 1e-4
+                           : std::min(steps, 350.0) * 1e-4 + std::max(0.0, steps - 350) * 0.25e-4;
+      const double way = programme.way(t), speed = programme.velocity(t), turned = way / radius;
+      ASSERT_EQ(frame.balls.size(), 24u);
+      for (const auto &[id, ball] : frame.balls) {
+        const double begin = 2 * pi * static_cast<double>(id) / 24; // from the lowest ball backwards
+        const double a0 = along_x ? 0.15 * std::sin(begin) : 0.0, b0 = -0.15 * std::cos(begin);
+        const double a = a0 * std::cos(turned) + b0 * std::sin(turned);
+        const double b = b0 * std::cos(turned) - a0 * std::sin(turned);
+        const std::size_t axis = along_x ? 0 : 1;
+        worst_x = std::max({worst_x, std::fabs(ball.x[axis] - (along_x ? kind.x0 : 0.0) - way - a),
+                            std::fabs(ball.x[2] - (radius - overlap + 0.6 - g * t * t / 2) - b)});
+        worst_v = std::max({worst_v, std::fabs(ball.v[axis] - speed * (1 + b / radius)),
+                            std::fabs(ball.v[2] + g * t + speed / radius * a),
+                            std::fabs(ball.omega[1 - axis] - (along_x ? 1 : -1) * speed / radius)});
+      }
+    }
+    EXPECT_LT(worst_x, 4 * spacing + 1e-13) << kind.axis << kind.x0;
+    EXPECT_LT(worst_v, 2 * spacing * 3 / radius + 1e-11) << kind.axis << kind.x0; // places turn with v/R
+  }
+}
+
+// Three balls that roll as one body over a row of fixed balls, without friction: the equations of motion of
+// the axle's height and of the angle, solved by CVODE. With a damping ratio of 10 the contacts of a ball are
+// solved for together.
+TEST_P(TravellingDrum, MovesAClumpAsItsEquationsOfMotion) {
+  constexpr double small = 0.05, of_clump = 0.05, lever = radius - of_clump, begin = 0.03;
+  struct Kind {
+    std::string rotation;
+    double inertia, speed, damping; // inertia 0: driven
+  };
+  const double whole = mass * (lever * lever + 0.4 * of_clump * of_clump);
+  for (const Kind &kind : {Kind{"driven radius 0.2", 0, 0.7, 0}, Kind{"towed", whole, 0.7, 0},
+                           Kind{"towed inertia 0.5", 0.5, 0.7, 0}, Kind{"driven radius 0.2", 0, 2, 10},
+                           Kind{"towed", whole, 2, 10}}) {
+    if (kind.damping > 0 && !second()) continue;
+    const double c = 2 * kind.damping * std::sqrt(mass * k);
+    const auto turned = [&](double t, const oracle::State &y) { // angle and its rate
+      return kind.inertia == 0 ? std::pair{kind.speed * t / radius, kind.speed / radius}
+                               : std::pair{y[2], y[3]};
+    };
+    /// Force upwards, N, and torque about the axle, N m.
+    const auto forces = [&](double t, const oracle::State &y) {
+      std::array<double, 2> sum{};
+      const auto [angle, spin] = turned(t, y);
+      for (int ball = 1; ball <= 3; ++ball) {
+        const double turn = 2 * pi * ball / 3 - angle;
+        const double a = lever * std::sin(turn), b = -lever * std::cos(turn);
+        for (int fixed = -4; fixed <= 14; ++fixed) {
+          const double dx = begin + kind.speed * t + a - 0.1 * fixed, dz = y[0] + b;
+          const double apart = std::hypot(dx, dz), deep = of_clump + small - apart;
+          const double rate = -((kind.speed + spin * b) * dx + (y[1] - spin * a) * dz) / apart;
+          const double push = deep > 0 ? std::max(0.0, k * deep + c * rate) : 0;
+          sum[0] += push * dz / apart;
+          sum[1] += push * (b * dx - a * dz) / apart;
+        }
+      }
+      return sum;
+    };
+    const std::string what = kind.rotation + ", damping " + number(kind.damping);
+    std::vector<double> steps, errors;
+    for (const double dt : {2e-4, 1e-4, 0.5e-4}) {
+      const Scratch folder;
+      well(run("travel", folder,
+               {{"words", "from 0 to 0.5 speed " + number(kind.speed) + " rotation " + kind.rotation},
+                {"clump", "3"},
+                {"row", "1"},
+                {"D", number(kind.damping)},
+                {"mu", "0"},
+                {"x0", number(begin)},
+                {"dt", number(dt)},
+                {"steps", std::to_string(std::lround(0.2 / dt))},
+                {"every", std::to_string(std::lround(0.01 / dt))}}));
+      oracle::Ode exact(
+          [&](double t, const oracle::State &y, oracle::State &dydt) {
+            const auto [lift, torque] = forces(t, y);
+            dydt = {y[1], lift / mass - g, y[3], kind.inertia == 0 ? 0.0 : torque / kind.inertia};
+          },
+          0, {radius + small - overlap, 0, 0, 0}, {0.1, 0.1, 0.1, 1});
+      double worst = 0;
+      const std::vector<Row> rows = read_rows(folder / "travel.txt");
+      ASSERT_GE(rows.size(), 20u);
+      for (const Row &row : rows) {
+        if (row.time > 0) exact.advance(row.time);
+        const oracle::State &y = exact.state();
+        worst = std::max(worst, std::fabs(row.height - y[0]) / radius);
+        if (kind.inertia != 0) worst = std::max(worst, std::fabs(row.spin - y[3]) * radius / kind.speed);
+      }
+      steps.push_back(1 / dt);
+      errors.push_back(worst);
+    }
+    EXPECT_LT(errors[2], 2e-3) << what;
+    EXPECT_LT(fitted_order(steps, errors), -1.8)
+        << what << ' ' << errors[0] << ' ' << errors[1] << ' ' << errors[2];
+  }
+}
+
 TEST_P(TravellingDrum, GoesRoundAPeriodicBoxInOneDirection) {
   const Scratch folder;
   well(run("travel", folder,
@@ -123,10 +252,14 @@ TEST_P(TravellingDrum, GoesRoundAPeriodicBoxInOneDirection) {
 
 TEST_P(TravellingDrum, ContinuesFromARestartFileBitwiseInAPassAndInATurnAlsoOnRanks) {
   for (const char *first : {"2000", "5500", "6200"}) { // at full speed, in the ramp, in the pause
-    for (const char *rotation : {"driven", "towed"}) {
+    for (const auto &[rotation, balls] : {std::pair{"driven", "0"}, std::pair{"towed", "0"},
+                                          std::pair{"driven radius 0.2", "24"}, std::pair{"towed", "24"}}) {
+      const bool ramp = first[0] == '5', towed = rotation[0] == 't';
+      if (balls[0] == '2' && ramp != towed) continue; // a clump is towed in the ramp, and driven else
       const Scratch stayed, left;
       const Variables variables = {
           {"words", std::string("from 0 to 0.5 speed 1 ramp 0.1 pause 0.05 passes 2 rotation ") + rotation},
+          {"clump", balls},
           {"excitation", "amplitude 50 frequency 20 travel travel"},
           {"row", "1"},
           {"first", first},
@@ -148,7 +281,7 @@ TEST_P(TravellingDrum, ContinuesFromARestartFileBitwiseInAPassAndInATurnAlsoOnRa
                     ranks.path(), 2));
       EXPECT_LT(distance(read_dump(ranks / "balls.txt"), read_dump(left / "balls.txt")), 1e-9);
       const Outcome other = run("travel.resume", left,
-                                with({{"words", "from 0 to 0.8 speed 1"}},
+                                with({{"words", std::string("from 0 to 0.8 speed 1 rotation ") + rotation}},
                                      with(variables, {{"start", (stayed / "first.restart").string()}})));
       EXPECT_TRUE(
           fails_with(other, {"fix drum/travel: way driven is '", "allowed: those of the run before"}));
@@ -175,29 +308,39 @@ TEST_P(TravellingDrum, KeepsItsProgrammeWithAnotherTimeStep) {
 }
 
 TEST_P(TravellingDrum, IsTheSameOnTwoRanks) {
-  const Variables variables = {{"words", "from 0 to 0.9 speed 1 ramp 0.1 passes 2 rotation towed"},
-                               {"row", "1"},
-                               {"stepping", std::get<1>(GetParam())},
-                               {"steps", "500"}};
-  const Scratch one, two;
-  well(run_deck(test_deck(deck("travel")), variables, one.path()));
-  well(run_deck(test_deck(deck("travel")), variables, two.path(), 2));
-  EXPECT_LT(distance(read_dump(one / "balls.txt"), read_dump(two / "balls.txt")), 1e-9);
-  const Row a = read_rows(one / "travel.txt").back(), b = read_rows(two / "travel.txt").back();
-  EXPECT_NEAR(a.work, b.work, 1e-9 * std::fabs(a.work));
-  EXPECT_NEAR(a.traction, b.traction, 1e-6 * mass * g);
+  const Variables ball = {{"words", "from 0 to 0.9 speed 1 ramp 0.1 passes 2 rotation towed"}};
+  const std::string way = "from 0 to 0.9 speed 3 ramp 0.01 rotation ";
+  for (const Variables &kind : {ball, ring(way + "driven radius 0.2"), ring(way + "towed")}) {
+    const Variables variables =
+        with(kind, {{"row", "1"}, {"stepping", std::get<1>(GetParam())}, {"steps", "500"}});
+    const Scratch one, two;
+    well(run_deck(test_deck(deck("travel")), variables, one.path()));
+    well(run_deck(test_deck(deck("travel")), variables, two.path(), 2));
+    EXPECT_LT(distance(read_dump(one / "balls.txt"), read_dump(two / "balls.txt")), 1e-9);
+    const Row a = read_rows(one / "travel.txt").back(), b = read_rows(two / "travel.txt").back();
+    EXPECT_NEAR(a.work, b.work, 1e-9 * std::fabs(a.work));
+    EXPECT_NEAR(a.torque_work, b.torque_work, 1e-9 * std::fabs(a.torque_work));
+    EXPECT_NEAR(a.traction, b.traction, 1e-6 * mass * g);
+  }
 }
 
 TEST_P(TravellingDrum, SlidesUntilItRollsAsTheClosedFormOfASlidingBall) {
   struct Kind {
     std::string words;
     double inertia;
+    Variables more;
   };
-  for (const Kind &kind : {Kind{"", 0.4 * mass * radius * radius}, Kind{" inertia 0.35", 0.35}}) {
+  // Two balls at one place, or one ball, are the clumps that a ball can be compared with.
+  const Variables twins = {
+      {"clump", "2"}, {"of_clump", number(radius)}, {"k", number(k / 2)}, {"lift", number(overlap)}};
+  const double of_ball = 0.4 * mass * radius * radius;
+  for (const Kind &kind : {Kind{"", of_ball, {}}, Kind{" inertia 0.35", 0.35, {}}, Kind{"", of_ball, twins},
+                           Kind{"", of_ball, {{"clump", "1"}, {"of_clump", number(radius)}}}}) {
     const Scratch folder;
-    well(run(
-        "travel", folder,
-        {{"words", "from 0 to 1 speed 1 rotation towed" + kind.words}, {"steps", "9000"}, {"every", "1"}}));
+    well(run("travel", folder,
+             with(kind.more, {{"words", "from 0 to 1 speed 1 rotation towed" + kind.words},
+                              {"steps", "9000"},
+                              {"every", "1"}})));
     constexpr double mu = 0.3, lever = radius - overlap / 2; // of the contact force
     const double gain = mu * mass * g * lever / kind.inertia, rolls = 1 / lever / gain;
     double mean = 0;
@@ -241,13 +384,22 @@ TEST_P(TravellingDrum, IsSlowedByRollingResistanceWithTheHeatOfItsTraction) {
 }
 
 TEST_P(TravellingDrum, BalancesItsEnergyOverARowOfBalls) {
-  for (const char *rotation : {"none", "driven", "towed", "towed inertia 0.35"}) {
+  struct Kind {
+    const char *rotation, *balls, *damping;
+  };
+  for (const auto &[rotation, balls, damping] :
+       {Kind{"none", "0", "0.1"}, Kind{"driven", "0", "0.1"}, Kind{"towed", "0", "0.1"},
+        Kind{"towed inertia 0.35", "0", "0.1"}, Kind{"none", "24", "0.1"},
+        Kind{"driven radius 0.2", "24", "0.1"}, Kind{"towed", "24", "0.1"},
+        Kind{"towed inertia 0.35", "24", "0.1"}, Kind{"driven radius 0.2", "24", "10"}}) {
     std::vector<double> steps, errors;
     for (const double dt : {2e-4, 1e-4, 0.5e-4}) {
       const Scratch folder;
       well(run("travel", folder,
                {{"words", std::string("from 0 to 0.5 speed 1 ramp 0.1 passes 2 rotation ") + rotation},
                 {"row", "1"},
+                {"clump", balls},
+                {"D", damping},
                 {"dt", number(dt)},
                 {"steps", std::to_string(std::lround(1.2 / dt))},
                 {"every", std::to_string(std::lround(2e-3 / dt))}}));
@@ -262,10 +414,10 @@ TEST_P(TravellingDrum, BalancesItsEnergyOverARowOfBalls) {
       steps.push_back(1 / dt);
       errors.push_back(worst / most);
     }
-    EXPECT_LT(errors[1], 1e-3) << rotation;
+    EXPECT_LT(errors[1], 1e-3) << rotation << ' ' << balls;
     if (second()) {
       EXPECT_LT(fitted_order(steps, errors), -1.7)
-          << rotation << ' ' << errors[0] << ' ' << errors[1] << ' ' << errors[2];
+          << rotation << ' ' << balls << ' ' << errors[0] << ' ' << errors[1] << ' ' << errors[2];
     }
   }
 }
@@ -287,9 +439,12 @@ TEST_P(TravellingDrum, VibratesWithTheShareOfItsSpeed) {
 
 TEST(TravellingDrumInBothEngines, IsTheSame) {
   if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  for (const char *rotation : {"none", "driven", "towed"}) {
+  for (const auto &[rotation, balls] :
+       {std::pair{"none", "0"}, std::pair{"driven", "0"}, std::pair{"towed", "0"},
+        std::pair{"driven radius 0.2", "24"}, std::pair{"towed", "24"}}) {
     const Variables variables = {
         {"words", std::string("from 0 to 0.5 speed 2 ramp 0.01 passes 2 rotation ") + rotation},
+        {"clump", balls},
         {"row", "1"},
         {"rolling", "epsd2"},
         {"steps", "500"}};

@@ -1,6 +1,6 @@
 #pragma once
-/// The programme of a roller that drives: its place along a way as a function of time, in passes with ramps
-/// of the speed and pauses between them.
+/// A roller that drives. Its programme: its place along a way as a function of time, in passes with ramps of
+/// the speed and pauses between them. And the balls of a drum that rolls as one body.
 
 #include "physics/parameter_checks.h"
 
@@ -113,6 +113,38 @@ struct TravelState {
   if (travel.ramp > 0.0 && same_pass)                                    // Simpson's rule, exact in a ramp
     return (first.velocity + 4.0 * travel_state(travel, 0.5 * (begin + end)).velocity + last.velocity) / 6.0;
   return (last.distance - first.distance) / (end - begin);
+}
+
+/// A place or a velocity in the plane in which a drum rolls.
+struct InPlane {
+  double along = 0.0; ///< towards greater places of the way
+  double up = 0.0;
+};
+
+/// A rotation about the axle by an angle, rad, positive where the drum rolls towards greater places.
+class Turn {
+public:
+  explicit Turn(double angle) : cosine_(std::cos(angle)), sine_(std::sin(angle)) {}
+
+  /// The vector after the rotation.
+  [[nodiscard]] InPlane operator()(const InPlane &v) const {
+    return {cosine_ * v.along + sine_ * v.up, cosine_ * v.up - sine_ * v.along};
+  }
+
+private:
+  double cosine_, sine_;
+};
+
+/// Velocity, m/s, relative to the axle of a ball of a drum that rotates with the angular velocity `spin`,
+/// rad/s. \param lever m, from the axle to the ball
+[[nodiscard]] inline InPlane turning_velocity(double spin, const InPlane &lever) {
+  return {spin * lever.up, -spin * lever.along};
+}
+
+/// The angular velocity, rad/s, that gives a ball its mean velocity over a time, s, in which the drum turns
+/// by an angle, rad: together with the lever in the middle of the time. It is that of the chord.
+[[nodiscard]] inline double spin_of_chord(double angle, double time) {
+  return 2.0 * std::sin(0.5 * angle) / time;
 }
 
 } // namespace drumlin::physics

@@ -71,6 +71,8 @@ BadGroup drum_excite() {
 
 BadGroup drum_travel() {
   const std::string more = "@ from 0 to 1 speed 1";
+  const std::string rolls =
+      "fix body roller clump\nfix travel roller drum/travel from 0 to 1 speed 1 rotation driven radius 1";
   return Table{"DrumTravel", "fix drum/travel: ", "fix travel drum drum/travel"}.of({
       {"nothing", "@", "keyword from is missing ... from S", on_two_ranks},
       {"no end", "@ from 0 speed 1", "keyword to is missing ... to S"},
@@ -98,7 +100,34 @@ BadGroup drum_travel() {
       {"inertia of a drum that does not turn", more + " inertia 5",
        "keyword inertia is '5' ... rotation driven or towed only"},
       {"drum of several balls", "fix travel roller drum/travel from 0 to 1 speed 1 rotation driven",
-       "keyword drum is 'roller', a group of 2 balls, of which 2 drive ... a group of one ball",
+       "keyword drum is 'roller', a group of 2 balls, of which 2 drive ... one ball that drives, the group "
+       "of "
+       "a fix clump that drives, or rotation none",
+       on_two_ranks},
+      {"a clump that is not the drum",
+       "fix body drum clump\nfix travel roller drum/travel from 0 to 1 speed 1 rotation towed",
+       "keyword drum is 'roller', a group of 2 balls, of which 2 drive"},
+      {"a clump of which a part drives",
+       "fix body roller clump\nfix travel frame drum/travel from 0 to 1 speed 1 rotation towed drum roller",
+       "keyword drum is 'roller', a group of 2 balls, of which 1 drive", on_two_ranks},
+      {"a clump without radius",
+       "fix body roller clump\nfix travel roller drum/travel from 0 to 1 speed 1 rotation driven",
+       "keyword radius is missing, and drum is 'roller', a clump ... radius R", on_two_ranks},
+      {"a clump with a ball moved between two runs",
+       rolls + "\nrun 5\ndisplace_atoms frame move 0.01 0 0 units box",
+       "keyword drum is 'roller', a clump with balls that are 0.01 m and ... as the run before has left them",
+       on_two_ranks},
+      {"a clump with another velocity in a second run",
+       rolls + "\nrun 5\nvelocity frame set 2 0 0 units box sum yes",
+       "keyword drum is 'roller', a clump with balls that are ... m and 2 m/s away from where it rolls"},
+      {"a clump with another ball in a second run",
+       rolls + "\nrun 5\ngroup roller union drum soil\nunfix soil",
+       "keyword drum is 'roller', a clump of 3 balls, of which 2 are among the 2 that rolled"},
+      {"a clump too long for a periodic box",
+       "change_box all boundary f p f\ndisplace_atoms frame move 0 1.9 -1.2 units box\nfix body roller "
+       "clump\nfix travel roller drum/travel from 0 to 1 speed 1 axis y rotation driven radius 2 up 0 0 1",
+       "keyword drum is 'roller', a clump of which a ball is ... m away from the middle ... a quarter of the "
+       "periodic box along y, 1 m",
        on_two_ranks},
       {"drum that does not drive",
        "fix travel frame drum/travel from 0 to 1 speed 1 rotation towed drum drum",

@@ -103,4 +103,31 @@ TEST(Travel, StaysOnAWayThatItsRampsFill) {
       << t.invalid();
 }
 
+// A drum of the radius 0.5 m rolls from 0 on: a ball 0.4 m from the axle, at first above it, is where the
+// cycloid has it.
+TEST(Travel, RollsABallOnACycloid) {
+  const InPlane top{0.0, 0.4};
+  for (double way = 0.0; way < 10.0; way += 0.37) {
+    const double angle = way / 0.5, spin = 3.0 / 0.5;
+    const InPlane place = Turn(angle)(top), v = turning_velocity(spin, place);
+    EXPECT_NEAR(place.along, 0.4 * std::sin(angle), 1e-15);
+    EXPECT_NEAR(place.up, 0.4 * std::cos(angle), 1e-15);
+    EXPECT_NEAR(v.along, 0.4 * spin * std::cos(angle), 1e-14);
+    EXPECT_NEAR(v.up, -0.4 * spin * std::sin(angle), 1e-14);
+  }
+}
+
+// The mean velocity of a step leads from the place at its beginning to that at its end, however long it is.
+TEST(Travel, LeadsABallOfADrumAlongTheChord) {
+  const InPlane ball{0.3, -0.2};
+  for (const double change : {-2.0, -1e-3, 0.0, 1e-6, 0.1, 3.0})
+    for (const double begin : {0.0, 1.0, -4.0}) {
+      const double time = 0.01;
+      const InPlane from = Turn(begin)(ball), to = Turn(begin + change)(ball);
+      const InPlane mean = turning_velocity(spin_of_chord(change, time), Turn(begin + 0.5 * change)(ball));
+      EXPECT_NEAR(to.along - from.along, time * mean.along, 1e-15);
+      EXPECT_NEAR(to.up - from.up, time * mean.up, 1e-15);
+    }
+}
+
 } // namespace
