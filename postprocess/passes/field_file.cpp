@@ -138,6 +138,8 @@ private:
     if (!meter_.given) rows_.missing(meter_name_);
     field_.meter = rows_.header()[meter_.place];
     if (lower(field_.meter).rfind("last", 0) == 0) field_.meter.erase(0, 4);
+    const bool ratio = wanted.name == "cmv" || wanted.name == "rmv" || wanted.name == "ccv";
+    field_.unit = ratio ? "-" : "?";
   }
 
   /// A number of a cell, NaN if it is not known. Behind it may stand a unit.
@@ -270,6 +272,8 @@ private:
         bearing_ < 0.0 ? bearing_ + 180.0 : bearing_));
     if (without_unit_ && !degrees_)
       notes.emplace_back("Coordinates or elevations have no unit in the header and are taken as metres.");
+    if (field_.unit == "?")
+      notes.push_back(fmt::format("The file does not tell the unit of {}.", field_.meter));
     if (invalid_ > 0) notes.push_back(fmt::format("Rows without a valid position, left out: {}.", invalid_));
     if (off_ > 0)
       notes.push_back(fmt::format("Values of the meter with the exciter off, left out: {}.", off_));
@@ -316,6 +320,7 @@ FieldFile read_field_file(const std::filesystem::path &file, const std::string &
 MeterMap meter_map(const FieldFile &field) {
   MeterMap map;
   map.meter = field.meter;
+  map.unit = field.unit;
   map.cell = field.cell;
   map.places = field.places;
   for (const FieldRow &row : field.rows)
@@ -327,7 +332,7 @@ MeterMap meter_map(const FieldFile &field) {
 
 std::string passes_csv(const FieldFile &field) {
   std::string text = csv_line({"pass", "cells [-]", "settlement [m]", "speed [m/s]", "frequency [Hz]",
-                               "amplitude [m]", fmt::format("{} [-]", field.meter)});
+                               "amplitude [m]", fmt::format("{} [{}]", field.meter, field.unit)});
   // Settlement: how much lower than in its first pass each cell is.
   std::vector<double> first(field.places.size(), none);
   for (auto row = field.rows.begin(); row != field.rows.end();) {
@@ -351,7 +356,7 @@ std::string passes_csv(const FieldFile &field) {
 
 std::string way_csv(const FieldFile &field) {
   std::string text = csv_line({"pass", "s [m]", "left [m]", "elevation [m]", "speed [m/s]", "frequency [Hz]",
-                               "amplitude [m]", fmt::format("{} [-]", field.meter)});
+                               "amplitude [m]", fmt::format("{} [{}]", field.meter, field.unit)});
   for (const FieldRow &row : field.rows)
     text += csv_line({std::to_string(row.pass), cell_of(field.places[row.place].along),
                       cell_of(field.places[row.place].across), cell_of(row.elevation), cell_of(row.speed),

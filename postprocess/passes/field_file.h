@@ -26,7 +26,7 @@ struct FieldRow {
 
 struct FieldFile {
   std::filesystem::path file;
-  std::string meter;              ///< as it is called in the file
+  std::string meter, unit;        ///< as it is called in the file; "?": the file does not tell the unit
   double cell = 0.0;              ///< m, side of a cell
   std::vector<MapPlace> places;   ///< along the longest extent of the cells, from 0
   std::vector<FieldRow> rows;     ///< by pass, then by place; one for each of both

@@ -74,13 +74,13 @@ std::vector<std::size_t> shown_passes(std::size_t passes) {
 }
 
 JudgedMap::JudgedMap(MeterMap values, const AcceptanceRule &asked)
-    : map(std::move(values)), rule(asked), rows(map_rows(map, rule)), variogram(semivariogram(map)) {}
+    : map(std::move(values)), rule(asked), rows(cells_of_passes(map, rule)), variogram(semivariogram(map)) {}
 
 std::vector<Acceptance> criteria_of(const JudgedMap &judged) {
   const AcceptanceRule &rule = judged.rule;
   if (!rule.target) return {};
-  const MapRow &last = judged.rows.back();
-  const std::string unit = judged.map.unit == "-" ? "" : " " + judged.map.unit;
+  const PassCells &last = judged.rows.back();
+  const std::string unit = judged.map.unit_words();
   std::vector<Acceptance> criteria;
   constexpr double rounding = 1e-9;
   criteria.push_back({fmt::format("at least {} of the cells have {} of {:g}{} or more after their last pass",
@@ -285,7 +285,7 @@ PageTable map_table(const JudgedMap &judged) {
   const auto number = [](double value, const char *format) {
     return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string(no_value);
   };
-  for (const MapRow &row : judged.rows)
+  for (const PassCells &row : judged.rows)
     table.add({row.pass == 0 ? "last of each cell" : std::to_string(row.pass), std::to_string(row.cells),
                number(row.mean, "{:.4g}"), number(row.deviation, "{:.3g}"),
                number(100.0 * row.variation(), "{:.1f}"), number(100.0 * row.gain.value_or(NAN), "{:+.1f}"),

@@ -21,7 +21,7 @@ std::vector<std::size_t> shown_passes(std::size_t passes);
 struct JudgedMap {
   MeterMap map;
   AcceptanceRule rule;
-  std::vector<MapRow> rows;
+  std::vector<PassCells> rows;
   std::vector<VariogramRow> variogram;
 
   JudgedMap(MeterMap values, const AcceptanceRule &asked);

@@ -24,8 +24,8 @@ constexpr std::array<CellMeter, 7> meters = {
      {"contact_share", "-", [](const WayCell &cell) { return cell.meter.contact_share; }},
      {"peak_force", "N", [](const WayCell &cell) { return cell.meter.peak_force; }}}};
 
-MapRow row_of(int pass, const std::vector<MapValue> &values, const AcceptanceRule &rule) {
-  MapRow row;
+PassCells row_of(int pass, const std::vector<MapValue> &values, const AcceptanceRule &rule) {
+  PassCells row;
   row.pass = pass;
   row.cells = values.size();
   const auto count = static_cast<double>(values.size());
@@ -61,6 +61,8 @@ std::string cell_of(std::optional<double> value) { return value ? cell_of(*value
 
 } // namespace
 
+std::string MeterMap::unit_words() const { return unit == "-" || unit == "?" ? "" : " " + unit; }
+
 std::vector<MapValue> MeterMap::of_pass(int pass) const {
   const auto range = std::equal_range(values.begin(), values.end(), MapValue{pass, 0, 0.0},
                                       [](const MapValue &a, const MapValue &b) { return a.pass < b.pass; });
@@ -95,7 +97,7 @@ MeterMap meter_map(const std::vector<PassesResult> &results, const CellMeter &me
     const std::size_t first = map.places.size(), count = result.cells.size() / result.passes.size();
     for (std::size_t i = 0; i < count; ++i)
       map.places.push_back({run, 0.5 * (result.cells[i].part.from + result.cells[i].part.to), 0.0});
-    for (std::size_t i = count; i < result.cells.size(); ++i)
+    for (std::size_t i = count; count > 0 && i < result.cells.size(); ++i)
       if (const std::optional<double> value = meter.value(result.cells[i]);
           result.cells[i].cycles > 0 && value && std::isfinite(*value))
         map.values.push_back({result.cells[i].pass, first + i % count, *value});
@@ -106,9 +108,9 @@ MeterMap meter_map(const std::vector<PassesResult> &results, const CellMeter &me
   return map;
 }
 
-std::vector<MapRow> map_rows(const MeterMap &map, const AcceptanceRule &rule) {
+std::vector<PassCells> cells_of_passes(const MeterMap &map, const AcceptanceRule &rule) {
   if (map.values.empty()) return {};
-  std::vector<MapRow> rows;
+  std::vector<PassCells> rows;
   std::vector<MapValue> before;
   for (int pass = 1; pass <= map.passes(); ++pass) {
     std::vector<MapValue> values = map.of_pass(pass);
@@ -126,7 +128,7 @@ std::vector<MapRow> map_rows(const MeterMap &map, const AcceptanceRule &rule) {
   return rows;
 }
 
-std::optional<int> passes_until_gain(const std::vector<MapRow> &rows, const AcceptanceRule &rule) {
+std::optional<int> passes_until_gain(const std::vector<PassCells> &rows, const AcceptanceRule &rule) {
   std::optional<int> level;
   if (rows.empty()) return level;
   for (std::size_t n = rows.size() - 1; n-- > 1;) {
@@ -188,11 +190,11 @@ std::vector<VariogramRow> semivariogram(const MeterMap &map) {
   return rows;
 }
 
-std::string acceptance_csv(const MeterMap &map, const std::vector<MapRow> &rows) {
+std::string acceptance_csv(const MeterMap &map, const std::vector<PassCells> &rows) {
   std::string text = csv_line({"pass", "cells [-]", fmt::format("{} [{}]", map.meter, map.unit),
                                fmt::format("{}_scatter [{}]", map.meter, map.unit),
                                "coefficient_of_variation [-]", "gain [-]", "coverage [-]"});
-  for (const MapRow &row : rows)
+  for (const PassCells &row : rows)
     text += csv_line({row.pass == 0 ? "last" : std::to_string(row.pass), std::to_string(row.cells),
                       cell_of(row.mean), cell_of(row.deviation), cell_of(row.variation()), cell_of(row.gain),
                       cell_of(row.coverage)});
@@ -208,10 +210,10 @@ std::string variogram_csv(const MeterMap &map, const std::vector<VariogramRow> &
   return text;
 }
 
-std::string answer_of(const MeterMap &map, const std::vector<MapRow> &rows, const AcceptanceRule &rule) {
+std::string answer_of(const MeterMap &map, const std::vector<PassCells> &rows, const AcceptanceRule &rule) {
   if (rows.empty()) return fmt::format("No cell has a value of {}.", map.meter);
-  const MapRow &last = rows.back();
-  const std::string unit = map.unit == "-" ? "" : " " + map.unit;
+  const PassCells &last = rows.back();
+  const std::string unit = map.unit_words();
   std::string text = fmt::format("{} of the last pass is {:.4g}{} in the mean of {} cells", map.meter,
                                  last.mean, unit, last.cells);
   if (std::isfinite(last.variation()))

@@ -26,11 +26,13 @@ struct MapValue {
 };
 
 struct MeterMap {
-  std::string meter = "CMV", unit = "-";
-  double cell = 0.0; ///< m, side of a cell
+  std::string meter = "CMV", unit = "-"; ///< "?": not known
+  double cell = 0.0;                     ///< m, side of a cell
   std::vector<MapPlace> places;
   std::vector<MapValue> values; ///< by pass, then by place; at most one for each of both
 
+  /// The unit behind a number, with a blank before it; empty if there is none.
+  std::string unit_words() const;
   int passes() const { return values.empty() ? 0 : values.back().pass; }
   /// The values of a pass.
   std::vector<MapValue> of_pass(int pass) const;
@@ -58,7 +60,7 @@ struct AcceptanceRule {
 };
 
 /// The cells of a pass, or of the last pass of each cell.
-struct MapRow {
+struct PassCells {
   int pass = 0; ///< 0: the last of each cell
   std::size_t cells = 0;
   double mean = 0.0, deviation = 0.0; ///< standard deviation; NaN of less than two cells
@@ -68,11 +70,11 @@ struct MapRow {
   double variation() const { return deviation / mean; }
 };
 /// A row for each pass, then that of the last pass of each cell; none without values.
-std::vector<MapRow> map_rows(const MeterMap &map, const AcceptanceRule &rule);
+std::vector<PassCells> cells_of_passes(const MeterMap &map, const AcceptanceRule &rule);
 
 /// The least number of passes after which no pass has changed the mean by the rule's gain or more; nothing if
 /// the last one still did or if there are less than two.
-std::optional<int> passes_until_gain(const std::vector<MapRow> &rows, const AcceptanceRule &rule);
+std::optional<int> passes_until_gain(const std::vector<PassCells> &rows, const AcceptanceRule &rule);
 
 /// Half the mean square of the differences of values at a distance along the way.
 struct VariogramRow {
@@ -88,11 +90,11 @@ constexpr std::size_t least_variogram_cells = 10;
 std::vector<VariogramRow> semivariogram(const MeterMap &map);
 
 /// acceptance.csv: a row for each pass, and one with `last` for the last pass of each cell.
-std::string acceptance_csv(const MeterMap &map, const std::vector<MapRow> &rows);
+std::string acceptance_csv(const MeterMap &map, const std::vector<PassCells> &rows);
 /// variogram.csv
 std::string variogram_csv(const MeterMap &map, const std::vector<VariogramRow> &rows);
 
 /// In one sentence: mean, scatter and gain of the last pass, coverage if there is a target.
-std::string answer_of(const MeterMap &map, const std::vector<MapRow> &rows, const AcceptanceRule &rule);
+std::string answer_of(const MeterMap &map, const std::vector<PassCells> &rows, const AcceptanceRule &rule);
 
 } // namespace drumlin::post

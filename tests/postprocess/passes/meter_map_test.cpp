@@ -43,7 +43,7 @@ TEST(MeterMap, CountsCellsAsRulesOfAcceptanceDo) {
   const MeterMap map = row_of_cells({{10, 20, 30, NAN}, {20, 20, 40, 20}, {22, 21, NAN, 17}});
   AcceptanceRule rule;
   rule.target = 20.0;
-  const std::vector<MapRow> rows = map_rows(map, rule);
+  const std::vector<PassCells> rows = cells_of_passes(map, rule);
   ASSERT_EQ(rows.size(), 4u); // three passes, and the last value of each cell: 22, 21, 40, 17
   EXPECT_EQ(rows[0].cells, 3u);
   EXPECT_DOUBLE_EQ(rows[0].mean, 20.0);
@@ -61,11 +61,12 @@ TEST(MeterMap, CountsCellsAsRulesOfAcceptanceDo) {
   EXPECT_EQ(passes_until_gain(rows, rule), 2);
   rule.gain = 0.5;
   EXPECT_EQ(passes_until_gain(rows, rule), 1);
-  EXPECT_EQ(passes_until_gain(map_rows(row_of_cells({{10}, {11}}), {}), {}), std::nullopt);
+  EXPECT_EQ(passes_until_gain(cells_of_passes(row_of_cells({{10}, {11}}), {}), {}), std::nullopt);
   EXPECT_TRUE(contains(answer_of(map, rows, rule), {"CMV of the last pass is 25 in the mean of 4 cells",
                                                     "75 % of the cells are at or above 20"}));
-  EXPECT_FALSE(map_rows(map, {}).front().coverage);
-  EXPECT_TRUE(contains(answer_of(map, map_rows(map, {}), {}), {"without a target", "nothing is judged"}));
+  EXPECT_FALSE(cells_of_passes(map, {}).front().coverage);
+  EXPECT_TRUE(
+      contains(answer_of(map, cells_of_passes(map, {}), {}), {"without a target", "nothing is judged"}));
 }
 
 // Of values that grow evenly by b per cell half the mean square of the differences over n cells is (b n)2/2;
@@ -203,6 +204,7 @@ TEST_F(FieldPasses, ReadsTheOtherWaysOfWritingSuchFiles) {
   EXPECT_EQ(cmv("CellN,CellE,PassCount,Speed,EVIB1\n5,1,1,0.8km/h,40\n6,1,1,3.6km/h,50\n7,1,1,3.",
                 {"--meter", "LastEVIB1"}),
             (std::vector<double>{45.0, 45.0}));
+  EXPECT_EQ(read_table(folder_ / "results/passes/passes.csv").header().back(), "EVIB1 [?]");
   EXPECT_NEAR(read_table(folder_ / "results/passes/passes.csv").numbers("speed [m/s]")[0],
               0.5 * (0.8 + 3.6) / 3.6, 1e-12);
   // A ten-thousandth of a degree of latitude is 11.1195 m of a sphere of 6371 km, of longitude half at 60.
