@@ -40,6 +40,7 @@ struct Arguments {
   std::optional<std::string> least_force;
   std::optional<std::string> m2_tolerance, m3_tolerance, me_re_tolerance;
   std::string window = "10";
+  WayArguments way;
   std::string out = "results/identify";
 };
 
@@ -57,8 +58,31 @@ RecordSetting judge(const Arguments &arguments) {
     setting.least_force =
         0.01 * number_option("--least-force", *arguments.least_force, {0.0, most_percent, "%"});
   constexpr int most_cycles = 1000000;
-  setting.window = count_option("--window", arguments.window, least_cycles, most_cycles);
+  if (!window_length(arguments.window))
+    setting.window = count_option("--window", arguments.window, least_cycles, most_cycles);
   return setting;
+}
+
+/// The record, or the part of the way of it that is asked for.
+Record read(const RecordArguments &arguments, const WayRange &way) {
+  const Record record = judged(arguments);
+  return way.given() ? part_of(record, rows_on(record, way)) : record;
+}
+
+/// The cycles in which the roller drives a length [m] at its mean speed.
+int cycles_on(const Record &record, const std::string &text, double length) {
+  double driven = 0.0;
+  for (std::size_t row = 1; row < record.s.size(); ++row)
+    driven += std::abs(record.s[row] - record.s[row - 1]);
+  if (!(driven > 0.0))
+    throw UsageError(refusal("--window", text, "metres only for a roller that drives, of a run with s"));
+  const double a_cycle = driven / record.cycles();
+  const double cycles = std::round(length / a_cycle);
+  if (cycles < least_cycles || cycles > record.cycles() + 0.5)
+    throw UsageError(refusal("--window", text,
+                             fmt::format("{:.3g}m, four cycles of the excitation, to {:.3g}m, the whole way",
+                                         least_cycles * a_cycle, driven)));
+  return static_cast<int>(cycles);
 }
 
 // The folder of results, absolute: new, empty or of an earlier identification, which is replaced.
@@ -89,8 +113,8 @@ MachineTolerances judge_tolerances(const Arguments &arguments, const Record &rec
 
 /// What the tolerances do to k, c and D: the record is read and identified again with each datum changed.
 std::optional<MachinePart> machine_part(const MachineTolerances &tolerances, const RecordArguments &arguments,
-                                        const RecordSetting &setting, const Record &record,
-                                        const IdentifiedRecord &found) {
+                                        const RecordSetting &setting, const WayRange &way,
+                                        const Record &record, const IdentifiedRecord &found) {
   // The whole motion has the bond among its unknowns.
   const double of_bond = record.frame_computed && !found.motion ? record.bond->tolerance : 0.0;
   if (tolerances.m2 + tolerances.m3 + tolerances.me_re + of_bond == 0.0) return std::nullopt;
@@ -106,7 +130,7 @@ std::optional<MachinePart> machine_part(const MachineTolerances &tolerances, con
       changed.bond_tolerance = fmt::format("{:.17g}", 100.0 * record.bond->tolerance);
     }
     change(changed, 1.0 + step);
-    const Record again = judged(changed);
+    const Record again = read(changed, way);
     const LawEstimate law = identify_record(again, setting).whole.law, &before = found.whole.law;
     const double factor = tolerance / step;
     part.k = std::hypot(part.k, factor * (law.k.mean - before.k.mean));
@@ -130,10 +154,13 @@ std::optional<MachinePart> machine_part(const MachineTolerances &tolerances, con
 }
 
 void run(const Arguments &arguments) {
-  const RecordSetting setting = judge(arguments);
+  RecordSetting setting = judge(arguments);
+  const WayRange way = judged(arguments.way);
   const fs::path place = judged_folder(arguments.out);
   keep_apart(files_of(arguments.record), {{"--out", place, true}});
-  const Record record = judged(arguments.record);
+  const Record record = read(arguments.record, way);
+  if (const auto length = window_length(arguments.window))
+    setting.window = cycles_on(record, arguments.window, *length);
   const MachineTolerances tolerances = judge_tolerances(arguments, record);
   if (record.low_pass > 0.0 && !arguments.anyway)
     throw UsageError(refusal("--low-pass", fmt::format("{:g}", record.low_pass),
@@ -146,7 +173,7 @@ void run(const Arguments &arguments) {
   const std::optional<std::string> doubt = contradiction(found);
   if (doubt && !arguments.anyway)
     throw std::runtime_error(fmt::format("{}: {} (--anyway shows the result)", found.file.string(), *doubt));
-  found.machine = machine_part(tolerances, arguments.record, setting, record, found);
+  found.machine = machine_part(tolerances, arguments.record, setting, way, record, found);
   std::optional<LumpedComparison> compared;
   if (arguments.compare) compared = compare_lumped(record, found);
   try {
@@ -167,6 +194,12 @@ void run(const Arguments &arguments) {
   if (doubt) fmt::print("  The result contradicts itself: {}.\n", *doubt);
   for (const std::string &line : identification_answer(found))
     fmt::print("  {}\n", line);
+  if (!found.windows.empty()) {
+    const LawEstimate &law = found.whole.law;
+    const std::string words = smear_words(record, found.windows.back().begin, found.windows.back().end,
+                                          std::pair(law.k.mean, law.c.mean));
+    if (!words.empty()) fmt::print("  {}\n", words);
+  }
   if (compared)
     for (const std::string &line : lumped_answer({*compared}))
       fmt::print("  {}\n", line);
@@ -221,7 +254,9 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
       "by how much stiffness and damping of the bond may be off [%], 0 to 100, if the record has no "
       "acceleration of the frame; if not given 0, or 50 for a bond that neither --roller nor --k23 and --c23 "
       "give");
-  text_option(identify, "--window", "COUNT", arguments->window, "cycles of a window, 4 or more");
+  text_option(identify, "--window", "COUNT", arguments->window,
+              "cycles of a window, 4 or more, or of a roller that drives metres such as 0.5m");
+  add_way_options(*identify, arguments->way);
   text_option(identify, "--out", "DIR", arguments->out, "folder of the results");
   identify->footer(
       "Examples:\n"

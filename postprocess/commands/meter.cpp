@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -30,6 +31,7 @@ struct Arguments {
   std::string same = "0.05";
   DrumArguments drum;
   std::optional<std::string> window, speed, exported;
+  WayArguments way;
   std::string pass = "1";
   std::string out = "results/meter";
 };
@@ -37,7 +39,8 @@ struct Arguments {
 struct Task {
   MeterOptions options;
   PassOptions passes;
-  std::optional<double> window_seconds; ///< instead of a number of cycles
+  std::optional<double> window_seconds, window_metres; ///< instead of a number of cycles
+  WayRange way;
   fs::path out;
   std::optional<fs::path> exported;
 };
@@ -48,7 +51,9 @@ constexpr int longest_window = 1000000;
 void take_window(const std::string &text, Task &task) {
   constexpr const char *allowed =
       "an even whole number of cycles from 4 to 1000000 (RMV needs whole periods of half the "
-      "excitation frequency), or seconds such as 0.5s";
+      "excitation frequency), seconds such as 0.5s, or of a roller that drives metres such as 0.5m";
+  task.window_metres = window_length(text);
+  if (task.window_metres) return;
   if (!text.empty() && text.back() == 's') {
     task.window_seconds = number_option("--window", text.substr(0, text.size() - 1), Range{1e-6, 1e6, "s"});
     return;
@@ -83,6 +88,7 @@ Task judge(const Arguments &arguments) {
   }
   if (arguments.speed)
     task.passes.speed = number_option("--speed", *arguments.speed, Range{1e-3, 1e3, "km/h"});
+  task.way = judged(arguments.way);
   task.passes.pass = count_option("--pass", arguments.pass, 1, 65535);
   task.out = checked_out(arguments.out);
   std::vector<GivenPath> outputs = {{"--out", task.out, true}};
@@ -143,17 +149,25 @@ void run(const Arguments &arguments) {
   MeterResult result;
   result.record = judged(arguments.record);
   result.cycles = meter_cycles(result.record);
+  if (task.way.given()) keep_cycles(result.cycles, result.record, rows_on(result.record, task.way));
   if (!arguments.window) // the usual one, or of a short record all of it
     task.options.window =
         std::min(task.options.window, static_cast<int>(result.cycles.cycles.size() / 2 * 2));
   if (task.window_seconds) task.options.window = cycles_in(*task.window_seconds, result.record.period());
   result.options = task.options;
-  result.windows = meter_windows(result.cycles, result.options);
+  result.windows = task.window_metres
+                       ? windows_of_length(result.cycles, result.record, *task.window_metres, result.options)
+                       : meter_windows(result.cycles, result.options);
+  if (task.window_metres)
+    result.options.window = static_cast<int>(
+        std::lround((result.windows.back().end - result.windows.back().begin) / result.record.period()));
+  add_places(result.windows, result.record);
 
   for (const std::string &line : result.record.notes)
     fmt::print("{}\n", line);
   fmt::print("{}: {}\n{}\n", result.record.file.string(), answer_line(result), source_words(result));
-  if (const std::string words = width_words(result); !words.empty()) fmt::print("{}\n", words);
+  for (const std::string &words : {width_words(result), smear_words(result)})
+    if (!words.empty()) fmt::print("{}\n", words);
   print_windows(result);
   const fs::path place = fs::weakly_canonical(fs::absolute(task.out));
   make_output_folder(place.parent_path());
@@ -188,9 +202,11 @@ void add_meter_command(CLI::App &app, Session & /*session*/) {
               "motion; more for "
               "noisy records");
   text_option(meter, "--window", "COUNT", arguments->window,
-              "cycles in a window, an even number of 4 or more, or seconds such as 0.5s; without it 10 "
+              "cycles in a window, an even number of 4 or more, or seconds such as 0.5s, or of a roller "
+              "that drives metres such as 0.5m; without it 10 "
               "cycles, or all of a "
               "shorter record");
+  add_way_options(*meter, arguments->way);
   add_drum_options(*meter, arguments->drum);
   text_option(meter, "--out", "DIR", arguments->out,
               "folder of meter.csv and the page; an earlier one is replaced");

@@ -2,6 +2,7 @@
 
 #include "commands/roller_options.h"
 #include "commands/text_options.h"
+#include "passes/field_page.h"
 #include "passes/page.h"
 #include "passes/tables.h"
 #include "support/files.h"
@@ -26,20 +27,42 @@ constexpr const char *usual_out = "results/passes";
 /// The options as given. Numbers stay text until all are judged.
 struct Arguments {
   std::vector<std::string> folders;
-  std::string cell = "0.34";
-  std::optional<std::string> spacing, out;
+  std::string cell = "0.34", meter = "CMV", coverage = "80";
+  std::optional<std::string> spacing, out, target, field;
   RollerArguments roller;
   DrumArguments drum;
 };
 
 struct Task {
   std::vector<fs::path> folders;
+  std::optional<fs::path> field; ///< of a site, instead of folders
   PassesOptions options;
+  AcceptanceRule rule;
   fs::path out;
 };
 
+/// Refuses options of runs for a file of a site, and a call that names neither or both.
+void check_kind(const Arguments &arguments) {
+  if (!arguments.field && arguments.folders.empty())
+    throw UsageError(refusal("FOLDER", "", "the folder of a run of inputs/bed/in.drive, or --field FILE"));
+  if (!arguments.field) return;
+  if (!arguments.folders.empty())
+    throw UsageError(refusal("--field", *arguments.field, "without FOLDER: a site's file or runs"));
+  const auto of_runs = [](const char *name, const std::optional<std::string> &given) {
+    if (given) throw UsageError(refusal(name, *given, "only for runs, without --field"));
+  };
+  of_runs("--spacing", arguments.spacing);
+  of_runs("--roller", arguments.roller.file);
+  of_runs("--drum-radius", arguments.drum.radius);
+  of_runs("--drum-width", arguments.drum.width);
+}
+
 Task judge(const Arguments &arguments) {
   Task task;
+  check_kind(arguments);
+  task.rule.coverage = 0.01 * number_option("--coverage", arguments.coverage, {0.0, 100.0, "%", false, true});
+  if (arguments.target)
+    task.rule.target = number_option("--target", *arguments.target, {0.0, 1e15, "", false, true});
   for (const std::string &text : arguments.folders) {
     const fs::path folder = path_option("FOLDER", text);
     for (const fs::path &other : task.folders)
@@ -48,16 +71,25 @@ Task judge(const Arguments &arguments) {
     task.folders.push_back(folder);
   }
   PassesOptions &options = task.options;
-  options.cell = number_option("--cell", arguments.cell, {0.0, 1e3, "m", false, true});
+  options.cell = number_option("--cell", arguments.cell,
+                               arguments.field ? Range{0.01, 100.0, "m"} : Range{0.0, 1e3, "m", false, true});
   if (arguments.spacing) options.spacing = number_option("--spacing", *arguments.spacing, {1e-6, 1e3, "m"});
   if (const auto drum = judged(arguments.drum, judged(arguments.roller))) {
     options.meter.drum_radius = drum->radius;
     options.meter.drum_width = drum->length;
     options.meter.poisson = drum->poisson;
   }
-  const std::string usual = task.folders.size() > 1 ? usual_out : task.folders.front().string();
+  const std::string usual = task.folders.size() == 1 ? task.folders.front().string() : usual_out;
   task.out = output_folder_option("--out", arguments.out.value_or(usual));
   std::vector<GivenPath> inputs = files_of(arguments.roller);
+  if (arguments.field)
+    inputs.push_back({"--field", task.field.emplace(path_option("--field", *arguments.field))});
+  else
+    try {
+      cell_meter(arguments.meter);
+    } catch (const std::invalid_argument &names) {
+      throw UsageError(refusal("--meter", arguments.meter, names.what()));
+    }
   for (const fs::path &folder : task.folders)
     for (const GivenPath &file :
          files_in("FOLDER", folder, {"parameters.csv", "bed.csv", "cycles.csv", "dump"}))
@@ -82,8 +114,36 @@ std::vector<FileText> tables_of(const fs::path &folder, const PassesResult &resu
           {folder / "depth.csv", depth_csv(result)}};
 }
 
+std::vector<FileText> acceptance_of(const fs::path &folder, const JudgedMap &judged) {
+  return {{folder / "acceptance.csv", acceptance_csv(judged.map, judged.rows)},
+          {folder / "variogram.csv", variogram_csv(judged.map, judged.variogram)}};
+}
+
+/// The same of a file of a site.
+void run_field(const Arguments &arguments, const Task &task) {
+  const FieldFile field = read_field_file(*task.field, arguments.meter, task.options.cell);
+  const JudgedMap judged(meter_map(field), task.rule);
+  make_output_folder(task.out);
+  FolderInProgress page(fs::weakly_canonical(fs::absolute(task.out)) / page_folder);
+  write_field_page(page.path(), field, judged);
+  std::vector<FileText> tables = acceptance_of(task.out, judged);
+  tables.emplace_back(task.out / "passes.csv", passes_csv(field));
+  tables.emplace_back(task.out / "way.csv", way_csv(field));
+  write_files(tables);
+  page.publish();
+  fmt::print("{}\n", answer_of(judged.map, judged.rows, judged.rule));
+  for (const std::string &note : field.notes)
+    fmt::print("{}: {}\n", field.file.string(), note);
+  fmt::print("{}\n{}\n", (task.out / "passes.csv").string(),
+             (task.out / page_folder / "index.html").string());
+}
+
 void run(const Arguments &arguments) {
   const Task task = judge(arguments);
+  if (task.field) {
+    run_field(arguments, task);
+    return;
+  }
   std::vector<PassesResult> results;
   for (const fs::path &folder : task.folders) {
     results.push_back(measured(folder, task.options));
@@ -92,12 +152,17 @@ void run(const Arguments &arguments) {
           refusal("FOLDER", folder.string(),
                   fmt::format("runs of beds with the {} layers of the first", results.front().layers())));
   }
+  const JudgedMap judged(meter_map(results, cell_meter(arguments.meter)), task.rule);
+  if (judged.rows.empty() && task.rule.target)
+    throw UsageError(refusal("--target", *arguments.target,
+                             fmt::format("only where cells have a value of {}", arguments.meter)));
   make_output_folder(task.out);
   FolderInProgress page(fs::weakly_canonical(fs::absolute(task.out)) / page_folder);
-  write_passes_page(page.path(), results);
-  std::vector<FileText> tables;
+  write_passes_page(page.path(), results, judged);
+  std::vector<FileText> tables = acceptance_of(task.out, judged);
   if (results.size() == 1) {
-    tables = tables_of(task.out, results.front());
+    for (FileText &table : tables_of(task.out, results.front()))
+      tables.push_back(std::move(table));
   } else {
     tables.emplace_back(task.out / "passes.csv", passes_csv(results));
     for (std::size_t n = 0; n < results.size(); ++n) {
@@ -109,7 +174,7 @@ void run(const Arguments &arguments) {
   }
   write_files(tables);
   page.publish();
-  fmt::print("{}\n", answer_of(results));
+  fmt::print("{}\n{}\n", answer_of(results), answer_of(judged.map, judged.rows, judged.rule));
   for (const PassesResult &result : results)
     for (const std::string &note : result.notes)
       fmt::print("{}: {}\n", result.folder.string(), note);
@@ -125,13 +190,25 @@ void add_passes_command(CLI::App &app, Session & /*session*/) {
       "passes",
       "What each pass of a roller that drives over a bed leaves: settlement, how much of it is "
       "compaction, solid fraction of each layer, heave, energy, meter values along the way, profiles "
-      "over depth. Writes passes.csv, way.csv, surface.csv, depth.csv and a page.");
-  passes
-      ->add_option(
-          "FOLDER", arguments->folders,
-          "folder of a run of inputs/bed/in.drive; several: beds that differ in their seed, of which "
-          "means and intervals are written")
-      ->required();
+      "over depth, rules of acceptance. Writes passes.csv, way.csv, surface.csv, depth.csv, "
+      "acceptance.csv, variogram.csv and a page.");
+  passes->add_option(
+      "FOLDER", arguments->folders,
+      "folder of a run of inputs/bed/in.drive; several: beds that differ in their seed, of which "
+      "means and intervals are written");
+  text_option(passes, "--field", "FILE", arguments->field,
+              "instead of runs: the table of all passes that compaction software exports, CSV with CellN_m, "
+              "CellE_m (or _FT, or Lat, Long), PassNumber or PassCount, LastCMV, ...; passes.csv, way.csv, "
+              "acceptance.csv, variogram.csv and the page are made from it");
+  text_option(passes, "--meter", "NAME", arguments->meter,
+              "value of the cells that is mapped and judged: CMV, RMV, CCV, k_B, E_vib, contact_share, "
+              "peak_force; of a site's file the name of a column, with or without Last");
+  text_option(
+      passes, "--target", "NUMBER", arguments->target,
+      "of this value, in its unit in way.csv: cells at or above it are counted; without it nothing is "
+      "judged");
+  text_option(passes, "--coverage", "NUMBER", arguments->coverage,
+              "share of the cells that must reach the target [%]; rules have 70 or 80");
   text_option(passes, "--cell", "NUMBER", arguments->cell,
               "length of a cell along the way [m], which holds four cycles of the excitation or more");
   text_option(passes, "--spacing", "NUMBER", arguments->spacing,
@@ -145,7 +222,9 @@ void add_passes_command(CLI::App &app, Session & /*session*/) {
                           page_folder, usual_out));
   passes->footer("Examples:\n"
                  "  drumlin passes results/drive\n"
-                 "  drumlin passes results/drive-1 results/drive-2 results/drive-3 --out results/seeds");
+                 "  drumlin passes results/drive-1 results/drive-2 results/drive-3 --out results/seeds\n"
+                 "  drumlin passes results/drive --target 30\n"
+                 "  drumlin passes --field site.csv --target 45 --coverage 70 --out results/site");
   passes->callback([arguments] { run(*arguments); });
 }
 

@@ -325,6 +325,31 @@ Record judged(const RecordArguments &arguments) {
   return record;
 }
 
+void add_way_options(CLI::App &command, WayArguments &arguments) {
+  text_option(&command, "--from-place", "NUMBER", arguments.from,
+              "of a roller that drives only the way from here on [m], column s of the run");
+  text_option(&command, "--to-place", "NUMBER", arguments.to, "and up to here [m]");
+  text_option(&command, "--of-pass", "COUNT", arguments.pass,
+              "and of this pass, counted from 1; the last one if not given");
+}
+
+WayRange judged(const WayArguments &arguments) {
+  constexpr Range range{-1e6, 1e6, "m"};
+  WayRange way;
+  if (arguments.from) way.from = number_option("--from-place", *arguments.from, range);
+  if (arguments.to) way.to = number_option("--to-place", *arguments.to, range);
+  if (way.from && way.to && !(*way.from < *way.to))
+    throw UsageError(refusal("--to-place", *arguments.to, "a place beyond --from-place"));
+  constexpr int most = 65535;
+  if (arguments.pass) way.pass = count_option("--of-pass", *arguments.pass, 1, most);
+  return way;
+}
+
+std::optional<double> window_length(const std::string &text) {
+  if (text.empty() || text.back() != 'm') return std::nullopt;
+  return number_option("--window", text.substr(0, text.size() - 1), {1e-6, 1e6, "m"});
+}
+
 std::string settings_of(const Record &record) {
   std::vector<std::pair<std::string, std::string>> values = {{"record", record.file.string()}};
   for (const auto &[name, value] :

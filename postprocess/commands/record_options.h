@@ -3,6 +3,7 @@
 #pragma once
 
 #include "commands/roller_options.h"
+#include "meter/along_way.h"
 #include "record/record.h"
 #include "support/options.h"
 
@@ -32,6 +33,20 @@ struct RecordArguments {
 
 /// Adds RECORD, --column and so on; `arguments` must outlive the app.
 void add_record_options(CLI::App &command, RecordArguments &arguments);
+
+/// The part of the way that counts of a record with places, as given.
+struct WayArguments {
+  std::optional<std::string> from, to, pass;
+};
+
+/// Adds --from-place, --to-place and --of-pass; `arguments` must outlive the app.
+void add_way_options(CLI::App &command, WayArguments &arguments);
+
+/// UsageError for numbers that cannot be used.
+WayRange judged(const WayArguments &arguments);
+
+/// The length of a window given in metres, such as 0.5m [m]; nothing for a text without that unit.
+std::optional<double> window_length(const std::string &text);
 
 /// The files that make up the record: of a run all from which it may be read.
 std::vector<GivenPath> files_of(const RecordArguments &arguments);

@@ -5,6 +5,7 @@
 #include "bed/dump_readers.h"
 #include "bed/vtk_writers.h"
 #include "commands/commands.h"
+#include "runs/bed_files.h"
 #include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/options.h"
@@ -65,6 +66,7 @@ struct RunParameters {
   std::optional<double> omega,
       F_drive; ///< of the excitation: angular frequency, rad/s, and amplitude, N; where the run has one
   std::vector<LayerPackings> packings; ///< of the layers; empty: not known
+  std::optional<DriveHistory> drive;   ///< of a roller that drives: where it is in which pass
 };
 
 RunParameters run_parameters(const fs::path &folder) {
@@ -84,11 +86,28 @@ RunParameters run_parameters(const fs::path &folder) {
   if (!dt)
     throw std::runtime_error(fmt::format(
         "{}: has no 'timestep'; allowed: files with the time step of the run in s", file.string()));
+  std::optional<DriveHistory> drive;
+  const auto deck = parameters.find("deck");
+  if (deck != parameters.end() && deck->second == "drive" && fs::is_regular_file(folder / "bed.csv"))
+    drive = read_drive_history(folder / "bed.csv");
   return {*dt, number("omega", positive, "a number > 0 in rad/s"), number("Fw", 0.0, "a number >= 0 in N"),
-          noted_packings(parameters)};
+          noted_packings(parameters), std::move(drive)};
 }
 
-/// The phase of the excitation at a time, and the vertical forces on the drum, named as in bed.csv.
+/// Place and pass of a roller that drives, in the row of its history that is next to a time; a dump that the
+/// run wrote after its last row has neither.
+void add_place(double time, const DriveHistory &drive, StepValues &values) {
+  if (drive.size() < 2) return;
+  const double interval = drive.time[1] - drive.time[0];
+  const auto after = std::lower_bound(drive.time.begin(), drive.time.end(), time - 0.5 * interval);
+  if (after == drive.time.end() || *after > time + 0.5 * interval) return;
+  const auto row = static_cast<std::size_t>(after - drive.time.begin());
+  values.emplace_back("s", drive.s[row]);
+  values.emplace_back("pass_number", drive.pass[row]);
+}
+
+/// The phase of the excitation at a time, place and pass of a roller that drives, and the vertical forces on
+/// the drum, named as in bed.csv.
 StepValues values_of_step(double time, const RunParameters &run, const std::vector<Ball> &balls,
                           const std::optional<BedContacts> &contacts) {
   StepValues values;
@@ -99,6 +118,7 @@ StepValues values_of_step(double time, const RunParameters &run, const std::vect
     values.emplace_back("phase", 360.0 * (turns - std::floor(turns)));
     if (run.F_drive) values.emplace_back("F_excitation", *run.F_drive * std::sin(2.0 * pi * turns));
   }
+  if (run.drive) add_place(time, *run.drive, values);
   if (!contacts) return values;
   double on_drum = 0.0;
   for (const BallContact &contact : contacts->balls) {

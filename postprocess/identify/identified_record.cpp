@@ -287,6 +287,7 @@ IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &
   result.frame_computed = record.frame_computed;
   result.force_difference = force_difference(signals.force, record.F_contact);
   result.time = record.time;
+  result.s = record.s;
   result.per_cycle = signals.per_cycle;
   try {
     result.whole = identify(signals, law, [&progress](double share) {

@@ -57,6 +57,7 @@ struct IdentifiedRecord {
   /// where contact is lost.
   std::optional<double> k_B, k_1;
   std::vector<double> time; ///< [s]
+  std::vector<double> s;    ///< place along the way of a roller that drives [m]; else empty
   double per_cycle = 0.0;   ///< samples per cycle
   Identification whole;
   std::vector<LawWindow> windows;

@@ -265,26 +265,28 @@ std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
 }
 
 std::string identification_csv(const IdentifiedRecord &record) {
-  std::string text = csv_line({"window",
-                               "begin [s]",
-                               "end [s]",
-                               "k [N/m]",
-                               "k_half_width [N/m]",
-                               "c [N s/m]",
-                               "c_half_width [N s/m]",
-                               "D [-]",
-                               "D_half_width [-]",
-                               "phase_error [rad]",
-                               "phase_half_width [rad]",
-                               "R2 [-]",
-                               "residual [N]",
-                               "contact_share [-]",
-                               "contacts",
-                               "samples",
-                               "pulls",
-                               "k_machine [N/m]",
-                               "c_machine [N s/m]",
-                               "D_machine [-]"});
+  std::vector<std::string> header = {"window",
+                                     "begin [s]",
+                                     "end [s]",
+                                     "k [N/m]",
+                                     "k_half_width [N/m]",
+                                     "c [N s/m]",
+                                     "c_half_width [N s/m]",
+                                     "D [-]",
+                                     "D_half_width [-]",
+                                     "phase_error [rad]",
+                                     "phase_half_width [rad]",
+                                     "R2 [-]",
+                                     "residual [N]",
+                                     "contact_share [-]",
+                                     "contacts",
+                                     "samples",
+                                     "pulls",
+                                     "k_machine [N/m]",
+                                     "c_machine [N s/m]",
+                                     "D_machine [-]"};
+  if (!record.s.empty()) header.insert(header.end(), {"s_begin [m]", "s_end [m]"});
+  std::string text = csv_line(header);
   const auto cell = [](double value) { return std::isfinite(value) ? number_text(value) : std::string(); };
   for (const Row &row : rows_of(record)) {
     std::vector<std::string> cells = {row.name, cell(row.begin), cell(row.end)};
@@ -309,6 +311,12 @@ std::string identification_csv(const IdentifiedRecord &record) {
                                                      : "cannot be told");
     for (const auto part : {&MachinePart::k, &MachinePart::c, &MachinePart::D})
       cells.push_back(row.name == "all" && record.machine ? cell((*record.machine).*part) : "");
+    if (!record.s.empty())
+      for (const double time : {row.begin, row.end}) {
+        const double at = std::round((time - record.time.front()) * record.frequency * record.per_cycle);
+        cells.push_back(cell(record.s[static_cast<std::size_t>(
+            std::clamp(at, 0.0, static_cast<double>(record.s.size() - 1)))]));
+      }
     text += csv_line(cells);
   }
   return text;

@@ -1,5 +1,6 @@
 #include "meter/page.h"
 
+#include "meter/along_way.h"
 #include "pages/figure_data.h"
 #include "pages/page.h"
 #include "runs/parameter_file.h"
@@ -220,6 +221,8 @@ std::string meter_csv(const MeterResult &result) {
   for (const MeterColumn &column : columns)
     header.emplace_back(column.header);
   header.insert(header.end(), {"mode", "stiffness"});
+  const bool drives = !result.record.s.empty();
+  if (drives) header.insert(header.end(), {"s_begin [m]", "s_end [m]", "pass"});
   std::string text = csv_line(header);
   for (const MeterWindow &window : result.windows) {
     std::vector<std::string> cells;
@@ -228,6 +231,9 @@ std::string meter_csv(const MeterResult &result) {
       cells.push_back(value && std::isfinite(*value) && is_given(result, i) ? number_text(*value) : "");
     }
     cells.insert(cells.end(), {mode_name(window), stiffness_words(window)});
+    if (drives)
+      cells.insert(cells.end(), {number_text(window.from.value_or(NAN)), number_text(window.to.value_or(NAN)),
+                                 std::to_string(window.pass)});
     text += csv_line(cells);
   }
   return text;
@@ -251,6 +257,13 @@ std::string source_words(const MeterResult &result) {
   }
   return fmt::format(
       "Harmonics are from samples of acceleration; a jump may lie anywhere between two of them: {}.", off);
+}
+
+std::string smear_words(const MeterResult &result) {
+  const MeterWindow &last = result.windows.back();
+  std::optional<std::pair<double, double>> soil;
+  if (last.k_1 && last.c_1 && *last.k_1 > 0.0) soil.emplace(*last.k_1, *last.c_1);
+  return smear_words(result.record, last.begin, last.end, soil);
 }
 
 std::string width_words(const MeterResult &result) {
@@ -370,7 +383,8 @@ void write_meter_page(const std::filesystem::path &folder, const MeterResult &re
                           result.cycles.omega / (2.0 * pi), answer_line(result)));
   if (const std::string words = roller_words(result.record.parameters); !words.empty()) page.answer(words);
   page.answer(source_words(result));
-  if (const std::string words = width_words(result); !words.empty()) page.answer(words);
+  for (const std::string &words : {width_words(result), smear_words(result)})
+    if (!words.empty()) page.answer(words);
   if (!stiffness_valid(last) && last.k_B && !just_touches(last))
     page.answer(
         "The drum does not stay in contact, or its contact is not known: the stiffnesses are apparent.");

@@ -71,6 +71,8 @@ struct MeterWindow {
   std::optional<double> c_1;
   std::optional<double> E_vib; ///< Lundberg's modulus, mean over the cycles that give it [Pa]
   OperatingMode mode = OperatingMode::irregular;
+  std::optional<double> from, to; ///< places of a roller that drives, at begin and end [m]
+  int pass = 0;                   ///< its pass at the beginning, counted from 1
 };
 
 /// Windows of whole cycles one after the other; the last one ends with the record's last whole cycle, and

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The part of gnuplot's plot command after `using x:y`, for each style in its order.
-constexpr std::array<const char *, 39> styles = {{
+constexpr std::array<const char *, 40> styles = {{
     "with lines lw 2.4 dt (12,6) lc rgb '#D55E00'",                            // condition_a
     "with lines lw 2.2 dt solid lc rgb '#0072B2'",                             // condition_b
     "with points pt 6 ps 0.75 lw 1.1 lc rgb '#000000'",                        // direct_a
@@ -62,6 +62,7 @@ constexpr std::array<const char *, 39> styles = {{
     "with points pt 7 ps 0.4 lc rgb '#000000'",                                // mark_1
     "with points pt 4 ps 0.5 lw 0.9 lc rgb '#000000'",                         // mark_2
     "with points pt 2 ps 1.3 lw 3 lc rgb '#CC79A7'",                           // run_differs
+    "with filledcurves lc rgb '#0072B2' fill transparent solid 0.15 noborder", // band
 }};
 
 std::string style_words(const Curve &curve) {
@@ -122,7 +123,7 @@ std::string plain_log_tics() {
 std::string x_axis_script(const Panel &panel) {
   std::string s;
   if (panel.x_ticks.empty()) {
-    s += "  set xtics autofreq norotate\n  set autoscale x\n";
+    s += fmt::format("  set xtics {} norotate\n  set autoscale x\n", panel.whole_x ? "1" : "autofreq");
     if (panel.log_x && panel.plain_numbers) s += plain_log_tics();
     s += panel.tight_x ? "  set autoscale xfix\n  set offsets 0, 0, 0, 0\n"
                        : "  set offsets graph 0.04, graph 0.04, 0, 0\n";
@@ -208,6 +209,7 @@ std::string panel_script(const Panel &panel, int width, bool is_empty) {
                    tics_and_label + row * legend.rows + tic_lines(panel), legend.rows, legend.wider_svg,
                    legend.wider_png);
   s += x_axis_script(panel);
+  s += panel.whole_y ? "  set ytics 1\n" : "  set ytics autofreq\n";
   if (panel.equal_scales) s += "  set size ratio -1\n";
   s += color_script(panel);
   if (is_empty) {
@@ -243,6 +245,27 @@ constexpr const char *settings = "set encoding utf8\n"
                                  "set xzeroaxis lt 1 lw 0.8 dt solid lc rgb '#999999'\n"
                                  "set key bmargin center horizontal Left reverse samplen 2.5\n";
 
+/// The pictures of an animation, one after the other into a GIF, then the middle one into a PNG.
+std::string animation_script(const Figure &figure, bool is_empty) {
+  const int width = figure_width(figure), height = figure_height(figure);
+  std::string titles;
+  for (const std::string &title : figure.frames)
+    titles += (titles.empty() ? "" : ", ") + gnuplot_string(title);
+  const std::size_t count = figure.frames.size();
+  std::string s = fmt::format("array titles[{}] = [{}]\n", count, titles);
+  const std::string picture = "  set label 9 titles[frame] at graph 0.0, graph 1.03 front noenhanced\n" +
+                              panel_script(figure.panels.front(), width, is_empty);
+  const std::string size =
+      fmt::format("size {},{} enhanced font 'DejaVu Sans,11' background '#ffffff'", width, height);
+  s += fmt::format("kind = \"gif\"\nset terminal gif animate delay 12 loop 0 {}\nset output \"{}.gif\"\n"
+                   "do for [frame=1:{}] {{\n{}}}\nunset output\n",
+                   size, figure.name, count, picture);
+  s += fmt::format("kind = \"png\"\nset terminal pngcairo {}\nset output \"{}.png\"\nframe = {}\n{}"
+                   "unset output\n",
+                   size, figure.name, (count + 1) / 2, picture);
+  return s;
+}
+
 /// \param is_empty of each panel, see panel_script()
 std::string figure_script(const Figure &figure, const std::vector<bool> &is_empty) {
   const int rows = rows_of(figure);
@@ -252,6 +275,7 @@ std::string figure_script(const Figure &figure, const std::vector<bool> &is_empt
   const int height = figure_height(figure);
   std::string s =
       fmt::format("# {}\n# Run in this folder: gnuplot {}.gp\n{}", figure.title, figure.name, settings);
+  if (!figure.frames.empty()) return s + animation_script(figure, is_empty.front());
   s += fmt::format("do for [kind in \"{4}\"] {{\n"
                    "  if (kind eq \"svg\") {{ set terminal svg size {0},{1} enhanced rounded font 'DejaVu "
                    "Sans,Helvetica,Arial,15' background '#ffffff' }}\n"
@@ -291,8 +315,9 @@ std::vector<bool> empty_panels(const fs::path &gnuplot, const fs::path &folder, 
   std::vector<bool> is_empty;
   const std::string name = figure.name + "_panel.gp";
   for (const Panel &panel : figure.panels) {
-    write_files({{folder / name, fmt::format("{}set terminal dumb\nset output '/dev/null'\nkind = 'svg'\n{}",
-                                             settings, panel_script(panel, figure_width(figure), false))}});
+    write_files({{folder / name,
+                  fmt::format("{}set terminal dumb\nset output '/dev/null'\nkind = 'svg'\nframe = 1\n{}",
+                              settings, panel_script(panel, figure_width(figure), false))}});
     is_empty.push_back(found_no_point(run_gnuplot(gnuplot, folder, name)));
   }
   std::error_code ignored;
@@ -323,6 +348,7 @@ int figure_width(const Figure &figure) {
 }
 
 int figure_height(const Figure &figure) {
+  if (figure.height > 0) return figure.height;
   constexpr int graph = 430;
   constexpr int picture = 680;
   constexpr double line = 17.0; // px, of tic labels
@@ -336,6 +362,10 @@ int figure_height(const Figure &figure) {
   return rows_of(figure) * panel_height + (figure.panels.size() > 1 ? 40 : 0);
 }
 
+const char *shown_ending(const Figure &figure) {
+  return !figure.frames.empty() ? ".gif" : figure.only_png ? ".png" : ".svg";
+}
+
 std::string gnuplot_script(const Figure &figure) {
   return figure_script(figure, std::vector<bool>(figure.panels.size()));
 }
@@ -344,11 +374,11 @@ bool is_whole_picture(const fs::path &file) {
   using namespace std::string_view_literals;
   std::ifstream in(file, std::ios::binary);
   const std::string all(std::istreambuf_iterator<char>(in), {});
-  const bool png = file.extension() == ".png";
-  const std::string_view begin = png ? "\x89PNG\r\n\x1a\n"sv : "<?xml"sv;
-  const std::string_view end = png ? "\0\0\0\0IEND\xae\x42\x60\x82"sv : "</svg>"sv;
+  const bool png = file.extension() == ".png", gif = file.extension() == ".gif";
+  const std::string_view begin = png ? "\x89PNG\r\n\x1a\n"sv : gif ? "GIF8"sv : "<?xml"sv;
+  const std::string_view end = png ? "\0\0\0\0IEND\xae\x42\x60\x82"sv : gif ? ";"sv : "</svg>"sv;
   std::string_view rest = all;
-  if (!png) rest = rest.substr(0, rest.find_last_not_of(" \r\n") + 1);
+  if (!png && !gif) rest = rest.substr(0, rest.find_last_not_of(" \r\n") + 1);
   return rest.size() >= begin.size() + end.size() && rest.substr(0, begin.size()) == begin &&
          rest.substr(rest.size() - end.size()) == end;
 }
@@ -363,8 +393,7 @@ void render(const fs::path &gnuplot, const fs::path &folder, const Figure &figur
   }
   if (!outcome.ok())
     throw std::runtime_error(fmt::format("gnuplot failed on {}: {}", script.string(), outcome.output));
-  for (const char *kind : {".svg", ".png"}) {
-    if (figure.only_png && std::string_view(kind) == ".svg") continue;
+  for (const char *kind : {shown_ending(figure), ".png"}) {
     const fs::path picture = folder / (figure.name + kind);
     if (!is_whole_picture(picture))
       throw std::runtime_error(

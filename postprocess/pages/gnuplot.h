@@ -50,6 +50,7 @@ enum class CurveStyle {
   mark_1,      ///< small filled circles, black: points of a boundary
   mark_2,      ///< small open squares, black
   run_differs, ///< thick crosses, purple
+  band,        ///< a pale area between two values, blue; y names both, "4:5"
   segments,    ///< black line segments of Curve::width; y names ordinate and the extents along both axes
 };
 
@@ -81,7 +82,8 @@ struct Panel {
   std::string color_label = {}; ///< of the colour box of discs, with unit; empty: no colour box
   std::string color_range = {}; ///< as x_range
   bool color_whole = false;     ///< one colour per whole number
-  bool plain_numbers = false;   ///< a logarithmic axis x has 1, 2, 5, 10, ... instead of powers of ten
+  bool whole_x = false, whole_y = false; ///< numbers at whole steps only, as of passes
+  bool plain_numbers = false; ///< a logarithmic axis x has 1, 2, 5, 10, ... instead of powers of ten
 
   /// Adds a curve with another text in the legend than its own; empty: not in the legend.
   void add(Curve curve, std::string legend) {
@@ -99,6 +101,10 @@ struct Figure {
   int columns = 1;   ///< 1 to 3
   bool half = false; ///< half as wide as the others, and as high as a row of graphs: two stand side by side
   bool only_png = false; ///< no SVG, which would take many MB with thousands of circles
+  /// An animation in place of a graph: the titles of its pictures, one of its only panel for each; curves
+  /// take rows of the picture `frame`, counted from 1. Written are a GIF and a PNG of the middle picture.
+  std::vector<std::string> frames = {};
+  int height = 0; ///< px; 0: the usual one
 };
 
 /// "[low:high]" with six digits, for Panel::x_range and similar; empty, which stands for the range of the
@@ -112,11 +118,14 @@ int figure_height(const Figure &figure);
 /// Full path of the gnuplot program. Throws std::runtime_error naming the Debian package if there is none.
 std::filesystem::path find_gnuplot();
 
-/// The gnuplot script of a figure. Run in a folder, it writes NAME.svg, unless only_png, and NAME.png there.
+/// How the file ends that a page shows: ".svg", ".png" or ".gif".
+const char *shown_ending(const Figure &figure);
+
+/// The gnuplot script of a figure. Run in a folder, it writes NAME.png and the file that a page shows there.
 std::string gnuplot_script(const Figure &figure);
 
-/// Whether a PNG or SVG file has the beginning and the end of its format. gnuplot ends with status 0 even if
-/// the disk is full and the picture is cut short.
+/// Whether a PNG, GIF or SVG file has the beginning and the end of its format. gnuplot ends with status 0
+/// even if the disk is full and the picture is cut short.
 bool is_whole_picture(const std::filesystem::path &file);
 
 /// Writes folder/NAME.gp and runs it in that folder. Axes without any value to draw get a note. Throws

@@ -204,9 +204,9 @@ std::string key_figures_html(const std::vector<KeyFigure> &figures) {
   for (const KeyFigure &key : figures) {
     const Figure &figure = key.figure;
     s += fmt::format(
-        "<figure>\n<a href=\"{0}\"><img src=\"figures/{1}.{2}\" alt=\"{3}\" width=\"{4}\" "
+        "<figure>\n<a href=\"{0}\"><img src=\"figures/{1}{2}\" alt=\"{3}\" width=\"{4}\" "
         "height=\"{5}\" /></a>\n<figcaption>{3} (<a href=\"{0}\">{6}</a>)</figcaption>\n</figure>\n",
-        html_escaped(key.href), figure.name, figure.only_png ? "png" : "svg", html_escaped(key.caption),
+        html_escaped(key.href), figure.name, shown_ending(figure), html_escaped(key.caption),
         figure_width(figure), figure_height(figure), html_escaped(key.link));
   }
   return s + "</div>\n";
@@ -323,16 +323,18 @@ std::string table_html(const PageTable &table) {
 
 std::string figure_html(const PageFigure &figure) {
   const std::string &name = figure.figure.name;
-  const bool png = figure.figure.only_png;
+  const std::string ending = shown_ending(figure.figure);
   return fmt::format(
-      "<figure id=\"{0}\">\n<a href=\"figures/{0}.{6}\"><img src=\"figures/{0}.{6}\" alt=\"{1}\" "
+      "<figure id=\"{0}\">\n<a href=\"figures/{0}{6}\"><img src=\"figures/{0}{6}\" alt=\"{1}\" "
       "width=\"{4}\" height=\"{5}\" /></a>\n"
       "<figcaption><strong>{2}.</strong> {3} <span class=\"links\">[<a href=\"data/{0}.csv\">CSV</a>, "
       "<a href=\"figures/{0}.png\">PNG</a>, {7}"
       "<a href=\"figures/{0}.gp\">gnuplot script</a>]</span></figcaption>\n</figure>\n",
       name, html_escaped(figure.figure.title), html_escaped(figure.label), html_escaped(figure.caption),
-      figure_width(figure.figure), figure_height(figure.figure), png ? "png" : "svg",
-      png ? "" : fmt::format("<a href=\"figures/{}.svg\">SVG</a>, ", name));
+      figure_width(figure.figure), figure_height(figure.figure), ending,
+      ending == ".png"
+          ? ""
+          : fmt::format("<a href=\"figures/{}{}\">{}</a>, ", name, ending, ending == ".gif" ? "GIF" : "SVG"));
 }
 
 } // namespace drumlin::post

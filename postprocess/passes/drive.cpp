@@ -134,9 +134,19 @@ private:
           fmt::format("Pass {} is not finished and is left out: the run was stopped in it.", number));
       return false;
     }
+    for (auto at = steps_.lower_bound(begin); at != steps_.end() && at->first <= step; ++at)
+      if (!at->second.contacts.empty()) pass.dumps.push_back(at->first);
     for (auto at = steps_.upper_bound(begin); at != steps_.end() && at->first <= step; ++at)
       if (inside(row_at(at->first)) && !at->second.contacts.empty()) pass.passing.push_back(at->first);
-    drive_.states.push_back(read_dumped_bed(drive_.folder, step));
+    try {
+      drive_.states.push_back(read_dumped_bed(drive_.folder, step));
+    } catch (const CutShort &fault) {
+      if (ended_ || std::next(steps_.find(step)) != steps_.end()) throw;
+      drive_.notes.push_back(
+          fmt::format("Pass {} is left out: the run was stopped while it wrote the bed behind it ({}).",
+                      number, fault.what()));
+      return false;
+    }
     drive_.passes.push_back(std::move(pass));
     check_place();
     return true;
@@ -245,6 +255,7 @@ Drive read_drive(const fs::path &folder) {
                 "another place than measure_from");
   drive.speed = number("speed", {0.0, 1e3, "m/s", false, true});
   const double timestep = number("timestep", {0.0, 1.0, "s", false, true});
+  drive.timestep = timestep;
   drive.history = read_drive_history(folder / "bed.csv");
   drive.record = read_record(folder);
   if (drive.record.size() != drive.history.size())

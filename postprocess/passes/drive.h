@@ -39,6 +39,7 @@ struct DrivenPass {
   std::size_t first = 0, last = 0;    ///< rows, its pause included
   std::size_t enters = 0, leaves = 0; ///< first and last row of the measured part of the way
   std::vector<long> passing;          ///< dumped steps with the roller in the measured part
+  std::vector<long> dumps;            ///< all dumped steps with contacts, from the state before it on
 };
 
 /// What the run has written.
@@ -48,6 +49,7 @@ struct Drive {
   DriveHistory history;   ///< row by row as the record
   WayPart measured;       ///< the middle part of the way, on which is measured
   double speed = 0.0;     ///< m/s
+  double timestep = 0.0;  ///< s
   double thickness = 1.0; ///< m, of the bed along the drum's axis; 1 in two dimensions
   bool flat = true;       ///< two dimensions
   int layers = 1;         ///< of soil, by the types of its balls

@@ -2,6 +2,7 @@
 
 #include "pages/figure_data.h"
 #include "pages/page.h"
+#include "passes/animation.h"
 #include "passes/tables.h"
 
 #include <fmt/format.h>
@@ -68,20 +69,7 @@ std::string level_words(const Results &results, std::size_t layer) {
                      100.0 * (means.back() - means[passes - 1]) / (means.back() - means.front()));
 }
 
-/// The passes that a figure of curves shows: at most five.
-std::vector<std::size_t> shown_passes(std::size_t passes) {
-  const std::set<std::size_t> some = {0, std::min<std::size_t>(1, passes), std::min<std::size_t>(2, passes),
-                                      (passes + 2) / 2, passes};
-  return {some.begin(), some.end()};
-}
-
 std::string pass_name(std::size_t pass) { return pass == 0 ? "before" : fmt::format("after pass {}", pass); }
-
-CurveStyle line_style(std::size_t n) {
-  constexpr std::array<CurveStyle, 5> styles = {CurveStyle::line_5, CurveStyle::line_2, CurveStyle::line_3,
-                                                CurveStyle::line_4, CurveStyle::line_1};
-  return styles[n % styles.size()];
-}
 
 /// A value over passes with its scatter along the way, or with the 95 % interval of several runs.
 struct PassCurve {
@@ -97,9 +85,11 @@ PageFigure compaction_figure(const Results &results) {
   const bool many = several(results);
   PageFigure figure = page_figure(
       "Fig. 1",
-      fmt::format("The compaction curve. Bars: {}.",
-                  many ? "95 % intervals of the mean over the runs"
-                       : "standard deviations of the cells along the way, which are no errors of the mean"),
+      fmt::format(
+          "The compaction curve. Bars: {}.",
+          many ? "95 % intervals of the mean over the runs; pale: from the least to the largest run"
+               : "standard deviations of the cells along the way, which are no errors of the mean; of k "
+                 "its 95 % interval"),
       {name, "Compaction curve", {}, 2}, 1.0);
   std::vector<PassCurve> curves;
   const std::size_t layers = results.front().layers();
@@ -119,7 +109,17 @@ PageFigure compaction_figure(const Results &results) {
                     [](const PassValues &pass) { return pass.cmv_scatter; },
                     nullptr,
                     {}});
-  CurveTable table("pass,mean,low,high,second");
+  curves.push_back({"Stiffness", "stiffness [MN/m]", 1e-6, [](const PassValues &pass) { return pass.k; },
+                    [](const PassValues &pass) { return pass.k_half_width; }, "k_B of the meter",
+                    [](const PassValues &pass) { return pass.k_B; }});
+  curves.erase(std::remove_if(curves.begin(), curves.end(),
+                              [&](const PassCurve &one) {
+                                for (std::size_t pass = 0; pass <= most_passes(results); ++pass)
+                                  if (!values_after(results, pass, one.value).empty()) return false;
+                                return true;
+                              }),
+               curves.end());
+  CurveTable table("pass,mean,low,high,second,least,largest");
   for (const PassCurve &one : curves) {
     const std::string key = one.title;
     // The axis of each panel is given: gnuplot would count the bars of all of them.
@@ -130,22 +130,28 @@ PageFigure compaction_figure(const Results &results) {
       double half = many ? mean.half_width : one.scatter(results.front().passes[pass]);
       if (!std::isfinite(half)) half = 0.0;
       const double second = one.second ? mean_after(results, pass, one.of_second).mean : NAN;
+      const std::vector<double> all = values_after(results, pass, one.value);
+      const auto [low, high] = std::minmax_element(all.begin(), all.end());
       for (const double end : {mean.mean - half, mean.mean + half, second})
         if (std::isfinite(end)) {
           least = std::min(least, one.scale * end);
           most = std::max(most, one.scale * end);
         }
-      table.row(key, {static_cast<double>(pass), one.scale * mean.mean, one.scale * (mean.mean - half),
-                      one.scale * (mean.mean + half), one.scale * second});
+      table.row(key,
+                {static_cast<double>(pass), one.scale * mean.mean, one.scale * (mean.mean - half),
+                 one.scale * (mean.mean + half), one.scale * second, one.scale * *low, one.scale * *high});
     }
     Panel panel{one.title, "passes", one.label, {}};
-    panel.add(curve(name, key, "$2", "3", CurveStyle::series_1), !one.second ? ""
-                                                                 : key == "Settlement"
-                                                                     ? "settlement"
+    if (many) panel.add(curve(name, key, "$2", "7:8", CurveStyle::band), "");
+    panel.add(curve(name, key, "$2", "3", CurveStyle::series_1), !one.second           ? ""
+                                                                 : key == "Settlement" ? "settlement"
+                                                                 : key == "Stiffness"
+                                                                     ? "k identified"
                                                                      : "between its surfaces");
     panel.add(curve(name, key, "$2", "3:4:5", CurveStyle::spread), "");
     if (one.second) panel.add(curve(name, key, "$2", "6", CurveStyle::series_2), one.second);
     panel.x_range = fmt::format("[-0.3:{}.3]", most_passes(results));
+    panel.whole_x = most_passes(results) <= 12;
     const double margin = 0.05 * (most - least);
     panel.y_range = axis_range(least - margin, most + margin);
     figure.figure.panels.push_back(std::move(panel));
@@ -158,7 +164,7 @@ PageFigure surface_figure(const PassesResult &result) {
   const std::string name = "surface";
   const double length = 0.25 * result.cell;
   PageFigure figure = page_figure(
-      "Fig. 2",
+      "Fig. 3",
       fmt::format("Height of the surface along the way, means over {:.3g} m; measured is between {:g} and "
                   "{:g} m. surface.csv has all lines.",
                   length, result.measured.from, result.measured.to),
@@ -173,28 +179,7 @@ PageFigure surface_figure(const PassesResult &result) {
     for (double from = result.lines.low; from + length <= end + 1e-9; from += length)
       table.row(key, {from + 0.5 * length,
                       mean_over(result.surfaces[passes[n]], result.lines, {from, from + length})});
-    panel.curves.push_back(curve(name, key, "$2", "3", line_style(n)));
-  }
-  figure.csv = table.text();
-  figure.figure.panels = {panel};
-  return figure;
-}
-
-PageFigure meter_figure(const PassesResult &result) {
-  const std::string name = "meter";
-  PageFigure figure = page_figure(
-      "Fig. 3", fmt::format("CMV of the cells of {:g} m along the way, drawn at their middles.", result.cell),
-      {name, "CMV along the way", {}, 1});
-  CurveTable table("s [m],CMV [-]");
-  Panel panel{"", "place along the way [m]", "CMV [-]", {}};
-  panel.y_range = "[0:*]";
-  const std::vector<std::size_t> passes = shown_passes(result.passes.size() - 1);
-  for (std::size_t n = 1; n < passes.size(); ++n) {
-    const std::string key = fmt::format("pass {}", passes[n]);
-    for (const WayCell &cell : result.cells)
-      if (cell.pass == static_cast<int>(passes[n]) && cell.cycles > 0)
-        table.row(key, {0.5 * (cell.part.from + cell.part.to), cell.meter.cmv.value_or(NAN)});
-    panel.curves.push_back(curve(name, key, "$2", "3", line_style(n)));
+    panel.curves.push_back(curve(name, key, "$2", "3", pass_line(n)));
   }
   figure.csv = table.text();
   figure.figure.panels = {panel};
@@ -219,7 +204,7 @@ PageFigure depth_figure(const PassesResult &result) {
        {"largest horizontal stress [kPa]", 1e-3,
         [](const DepthRow &row) { return row.largest_horizontal; }}}};
   PageFigure figure = page_figure(
-      "Fig. 4",
+      "Fig. 5",
       fmt::format("Profiles over the depth below the surface before the first pass: means over the measured "
                   "way, and the largest stress of a cell of it{}.",
                   passing ? " in the dumps under the passing drum"
@@ -247,7 +232,7 @@ PageFigure depth_figure(const PassesResult &result) {
     panel.y_range = "[*:*] reverse";
     for (std::size_t n = 0; n < passes.size(); ++n) {
       const std::string key = pass_name(passes[n]);
-      panel.curves.push_back(curve(name, key, fmt::format("${}", i + 3), "2", line_style(n)));
+      panel.curves.push_back(curve(name, key, fmt::format("${}", i + 3), "2", pass_line(n)));
     }
     figure.figure.panels.push_back(std::move(panel));
   }
@@ -380,10 +365,12 @@ std::string answer_of(const Results &results) {
   return text + ".";
 }
 
-void write_passes_page(const std::filesystem::path &folder, const Results &results) {
+void write_passes_page(const std::filesystem::path &folder, const Results &results, const JudgedMap &judged) {
   const PassesResult &one = results.front();
   Page page(folder, "What the passes of a roller leave", Drawing::bed);
   page.answer(answer_of(results));
+  page.answer(answer_of(judged.map, judged.rows, judged.rule));
+  page.answer(criteria_of(judged));
   const bool known = std::isfinite(one.passes.back().degree.back());
   if (!known)
     page.answer("The degree of compaction is not known: the run does not note e_loosest and e_densest of its "
@@ -404,11 +391,22 @@ void write_passes_page(const std::filesystem::path &folder, const Results &resul
       runs.add({result.folder.string(), std::to_string(result.passes.size() - 1), answer_of({result})});
     page.table(std::move(runs));
   }
+  page.section("Rules of acceptance");
+  if (several(results))
+    page.paragraph(fmt::format("The cells of all {} runs count together.", results.size()));
+  if (judged.rows.empty()) page.paragraph(answer_of(judged.map, judged.rows, judged.rule));
+  if (!judged.rows.empty()) {
+    if (const auto rules = rule_figure("Fig. 2", judged, judged.map.meter != "CMV")) page.figure(*rules);
+    page.table(map_table(judged));
+  }
+  if (const std::vector<Acceptance> criteria = criteria_of(judged); !criteria.empty())
+    page.table(acceptance_table(criteria));
   page.section("Along the way");
   if (several(results))
-    page.paragraph(fmt::format("Surface, meter and profile are those of {}.", one.folder.string()));
+    page.paragraph(
+        fmt::format("Surface, meter, profile and animation are those of {}.", one.folder.string()));
   page.figure(surface_figure(one));
-  page.figure(meter_figure(one));
+  if (!judged.rows.empty()) page.figure(map_figure("Fig. 4", judged));
   page.section("Over depth");
   page.figure(depth_figure(one));
   const bool standing = std::any_of(one.depth.begin(), one.depth.end(), [](const PassDepth &slice) {
@@ -418,6 +416,13 @@ void write_passes_page(const std::filesystem::path &folder, const Results &resul
     page.paragraph("The run has no dumps with the roller on the measured part: the stresses are those that "
                    "stay in the soil "
                    "when the roller stands outside of it, not those under the passing drum.");
+  if (one.animated.pass > 0) {
+    page.section("A pass in motion");
+    page.figure(animation_of("Fig. 6", one));
+  } else {
+    page.paragraph("An animation of a pass, and stresses under the passing drum, need more dumps: -var "
+                   "dumps_per_pass 20.");
+  }
   page.write();
 }
 

@@ -1,6 +1,7 @@
 // The page on what passes leave: the compaction curve, surface and meter along the way, profiles over depth.
 #pragma once
 
+#include "passes/map_figures.h"
 #include "passes/values.h"
 
 #include <filesystem>
@@ -15,7 +16,9 @@ namespace drumlin::post {
 std::string answer_of(const std::vector<PassesResult> &results);
 
 /// Writes the page index.html with plots and their data into a folder that exists. Of several runs it has
-/// means with 95 % intervals; surface, meter and profile are those of the first.
-void write_passes_page(const std::filesystem::path &folder, const std::vector<PassesResult> &results);
+/// means with 95 % intervals, and the cells of all are judged together; surface, map, profile and animation
+/// are those of the first.
+void write_passes_page(const std::filesystem::path &folder, const std::vector<PassesResult> &results,
+                       const JudgedMap &judged);
 
 } // namespace drumlin::post

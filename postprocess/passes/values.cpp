@@ -84,6 +84,7 @@ public:
       if (n > 0) add_meter(n);
       add_depth(n);
     }
+    choose_animated();
     return std::move(result_);
   }
 
@@ -278,6 +279,25 @@ private:
     for (const DepthRow &row :
          depth_profile(drive_, drive_.states[n], loaded, result_.passes[n].soil.surface, options_.cell))
       result_.depth.push_back({static_cast<int>(n), row, loaded.size()});
+  }
+
+  /// The first pass with dumps enough for an animation; of more than most of them some are left out.
+  void choose_animated() {
+    constexpr std::size_t least = 5, most = 40;
+    for (std::size_t n = 0; n < drive_.passes.size() && result_.animated.pass == 0; ++n) {
+      const std::vector<long> &dumps = drive_.passes[n].dumps;
+      if (dumps.size() < least) continue;
+      result_.animated.pass = static_cast<int>(n) + 1;
+      const std::size_t every = (dumps.size() + most - 1) / most;
+      for (std::size_t i = 0; i < dumps.size(); i += every) {
+        const double time = static_cast<double>(dumps[i]) * drive_.timestep;
+        const double row = std::round((time - drive_.history.time.front()) / drive_.record.interval);
+        result_.animated.steps.push_back(dumps[i]);
+        result_.animated.times.push_back(time);
+        result_.animated.places.push_back(drive_.history.s[static_cast<std::size_t>(
+            std::clamp(row, 0.0, static_cast<double>(drive_.history.size() - 1)))]);
+      }
+    }
   }
 
   const Drive &drive_;

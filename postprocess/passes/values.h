@@ -60,6 +60,13 @@ struct PassDepth {
   std::size_t passing = 0; ///< number of dumps under the passing drum that the stresses are from
 };
 
+/// The dumps of a pass that can be shown as an animation.
+struct PassDumps {
+  int pass = 0; ///< 0: no pass has enough of them
+  std::vector<long> steps;
+  std::vector<double> times, places; ///< s; of the roller, m
+};
+
 /// What a run has left.
 struct PassesResult {
   std::filesystem::path folder;
@@ -73,6 +80,7 @@ struct PassesResult {
   VerticalLines lines;
   std::vector<std::vector<double>> surfaces; ///< on the lines, before the first pass and after each, m
   std::vector<PassDepth> depth;
+  PassDumps animated; ///< the first pass with enough dumps
   std::vector<std::string> notes;
 
   std::size_t layers() const { return passes.front().soil.thickness.size(); }

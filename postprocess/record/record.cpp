@@ -237,6 +237,10 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
     headers.push_back(find(signal.name, reading.record.*signal.values, !any_signal_named));
   const std::size_t of_motion = taken.size();
   find(pulse_name, reading.record.pulse, false);
+  if (is_of_run(table.file()) && table.find("s") && table.find("pass"))
+    for (const auto &[name, into] :
+         {std::pair{"s", &reading.record.s}, std::pair{"pass", &reading.record.pass}})
+      taken.push_back({into, *table.find(name), 1.0});
   if (of_motion == of_time) {
     std::vector<std::string> names;
     names.reserve(table.columns().size());
@@ -268,7 +272,7 @@ void read_samples(const std::vector<fs::path> &files, Reading &reading, const Re
   for (const fs::path &file : files) {
     const bool of_run = is_of_run(file);
     const MeasuredTable &table =
-        reading.tables.emplace_back(file, of_run ? TableFormat{',', '.'} : options.format);
+        reading.tables.emplace_back(file, of_run ? TableFormat{',', '.', true} : options.format);
     reading.starts.push_back(rows);
     for (const Taken &column : columns_to_take(table, options, reading)) {
       const bool clock = column.into == &reading.times && table.has_clock_times(column.place);
@@ -399,6 +403,8 @@ void take_piece(Reading &reading, const RecordOptions &options) {
   };
   record.time = reading.times;
   cut(record.time);
+  cut(record.s);
+  cut(record.pass);
   cut(record.pulse);
   for (const HistoryColumn &signal : record_signals)
     cut(record.*signal.values);
@@ -703,6 +709,8 @@ void undo_delays(Record &record, const std::map<std::string, double> &delays) {
     values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first));
   };
   cut(record.time);
+  cut(record.s);
+  cut(record.pass);
   cut(record.pulse);
   for (const HistoryColumn &signal : record_signals)
     cut(record.*signal.values);

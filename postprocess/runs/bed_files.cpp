@@ -9,7 +9,7 @@
 namespace drumlin::post {
 
 BedHistory read_bed_history(const std::filesystem::path &file) {
-  const Table table = read_table(file);
+  const Table table = read_table(file, CutRows::last);
   BedHistory bed;
   bed.coordination = table.numbers("coordination");
   bed.void_ratio = table.numbers("void_ratio");
@@ -37,7 +37,7 @@ DriveHistory read_drive_history(const std::filesystem::path &file) {
                                     {"work_excitation", &DriveHistory::work_excitation, 0},
                                     {"work_traction", &DriveHistory::work_traction, 0},
                                     {"work_torque", &DriveHistory::work_torque, 0}}};
-  CsvRows rows(file);
+  CsvRows rows(file, CutRows::last);
   for (Column &column : columns) {
     const std::optional<std::size_t> place = rows.find(column.name);
     if (!place) rows.missing(column.name);

@@ -1,6 +1,7 @@
 // The CSV files of a chain run: chain.csv, events.csv, cycles.csv, and parameters.csv
 // (runs/parameter_file.h). One reader and one writer per file, for the engine's output and for the direct
-// solver's alike. Errors and numbers are as in support/csv.h.
+// solver's alike. A last row without line end, which a run that was killed or a full disk leaves, is left
+// out. Errors and numbers are as in support/csv.h.
 #pragma once
 
 #include "runs/parameter_file.h"

@@ -48,6 +48,13 @@ std::string read_whole_file(const fs::path &file) {
   return read_text(file);
 }
 
+// The file's text, without a last row that lacks its line end if rows may be cut.
+std::string text_of(const fs::path &file, CutRows cut) {
+  std::string text = read_whole_file(file);
+  if (cut != CutRows::refuse) text.erase(text.rfind('\n') + 1); // npos + 1 is 0
+  return text;
+}
+
 // Walks through a CSV text row by row. Cells are plain or quoted (RFC 4180); empty lines are skipped.
 class RowScanner {
 public:
@@ -248,8 +255,8 @@ struct CsvRows::State {
   std::vector<std::string> header;
 };
 
-CsvRows::CsvRows(const fs::path &file)
-    : state_(std::make_unique<State>(State{RowScanner(file, read_whole_file(file)), {}})) {
+CsvRows::CsvRows(const fs::path &file, CutRows cut)
+    : state_(std::make_unique<State>(State{RowScanner(file, text_of(file, cut)), {}})) {
   state_->header = read_header(state_->scanner);
 }
 
@@ -263,18 +270,21 @@ void CsvRows::missing(std::string_view column) const {
   missing_column(state_->scanner.file(), column, state_->header);
 }
 
-bool CsvRows::next(std::vector<std::string> &cells) {
+const std::vector<std::string> &CsvRows::header() const { return state_->header; }
+
+bool CsvRows::next(std::vector<std::string> &cells) { return next(cells, 0); }
+
+bool CsvRows::next(std::vector<std::string> &cells, std::size_t fewer) {
   if (!state_->scanner.next(cells)) return false;
-  check_width(state_->scanner, state_->header, cells);
+  if (fewer == 0 || cells.size() + fewer != state_->header.size())
+    check_width(state_->scanner, state_->header, cells);
   return true;
 }
 
 std::size_t CsvRows::line() const { return state_->scanner.line(); }
 
 Table read_table(const fs::path &file, CutRows cut) {
-  std::string text = read_whole_file(file);
-  if (cut != CutRows::refuse) text.erase(text.rfind('\n') + 1); // npos + 1 is 0
-  RowScanner scanner(file, std::move(text));
+  RowScanner scanner(file, text_of(file, cut));
   std::vector<std::string> header = read_header(scanner);
   std::vector<std::vector<std::string>> rows;
   std::vector<std::size_t> lines;

@@ -58,7 +58,8 @@ Table read_table(const std::filesystem::path &file, CutRows cut = CutRows::refus
 /// The rows of a CSV file one after the other, for records of millions of cells that need no Table of text.
 class CsvRows {
 public:
-  explicit CsvRows(const std::filesystem::path &file);
+  /// \param cut `refuse` or `last`
+  explicit CsvRows(const std::filesystem::path &file, CutRows cut = CutRows::refuse);
   ~CsvRows();
   CsvRows(const CsvRows &) = delete;
   CsvRows &operator=(const CsvRows &) = delete;
@@ -67,8 +68,11 @@ public:
   std::optional<std::size_t> find(std::string_view column) const;
   /// Throws the fault that the header does not name a column.
   [[noreturn]] void missing(std::string_view column) const;
+  const std::vector<std::string> &header() const;
   /// The next row, as many cells as names in the header; false at the end of the file.
   bool next(std::vector<std::string> &cells);
+  /// The same with so many cells fewer, where a name of the header contains a comma.
+  bool next(std::vector<std::string> &cells, std::size_t fewer);
   /// Line of the file where the row that next() gave starts, counted from 1.
   std::size_t line() const;
 

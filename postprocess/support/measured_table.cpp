@@ -346,7 +346,7 @@ MeasuredTable::MeasuredTable(std::filesystem::path file, const TableFormat &form
     : file_(std::move(file)), decimal_given_(format.decimal.has_value()) {
   text_ = decoded(read_text(file_), encoding_);
   find_format(format);
-  find_rows();
+  find_rows(format.whole_lines);
 }
 
 std::vector<std::string> MeasuredTable::cells_of(std::string_view line) const {
@@ -425,7 +425,7 @@ void MeasuredTable::find_format(const TableFormat &given) {
                                           shown(lines.front())));
 }
 
-void MeasuredTable::find_rows() {
+void MeasuredTable::find_rows(bool whole_lines) {
   const std::vector<std::string_view> lines = lines_of(text_);
   const bool complete = text_.empty() || text_.back() == '\n' || text_.back() == '\r';
   const std::size_t width = numeric_.size();
@@ -453,7 +453,7 @@ void MeasuredTable::find_rows() {
       ++count;
       if (!cell.empty()) filled = count;
     });
-    if (count < width && i + 1 == lines.size() && !complete) break; // cut
+    if ((count < width || whole_lines) && i + 1 == lines.size() && !complete) break; // cut
     // Lines of text at the end, "End of file".
     if (count < width &&
         std::none_of(lines.begin() + static_cast<std::ptrdiff_t>(i), lines.end(),

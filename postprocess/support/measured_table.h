@@ -19,6 +19,8 @@ namespace drumlin::post {
 struct TableFormat {
   std::optional<char> separator; ///< ',', ';', '\t', '|', or ' ' for any number of blanks
   std::optional<char> decimal;   ///< '.' or ','
+  /// A last line without line end is left out even if it has all cells, whose last one may lack digits.
+  bool whole_lines = false;
 };
 
 /// A column of a measured table.
@@ -73,7 +75,7 @@ public:
 
 private:
   void find_format(const TableFormat &given);
-  void find_rows();
+  void find_rows(bool whole_lines);
   bool numbers_sensors(const std::vector<std::string_view> &lines, std::size_t row) const;
   void find_header(const std::vector<std::string_view> &lines, std::size_t first);
   std::vector<std::string> cells_of(std::string_view line) const;

@@ -5,13 +5,16 @@
 #include "tests/support/engine_runs.h"
 
 #include "bed/dump_readers.h"
+#include "engine/engine_command.h"
 #include "support/csv.h"
+#include "support/process.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -59,17 +62,19 @@ protected:
   /// Two passes of 0.2 m at 2 m/s, 50 Hz in steps as long as those of the decks.
   static Outcome drive(const Scratch &folder, const Variables &more, int ranks = 1,
                        const char *deck = "in.drive") {
-    Variables variables = with(more, {{"speed", "2"},
-                                      {"ramp", "0.05"},
-                                      {"length", "0.2"},
-                                      {"margin", "0.05"},
-                                      {"omega", "314.1592653589793"},
-                                      {"Fw", "2940"},
-                                      {"steps_per_cycle", "1000"},
-                                      {"samples_per_cycle", "100"},
-                                      {"out", folder.path().string()},
-                                      {"start", (scratch().path() / "roller.restart").string()}});
-    return run_deck(bed_folder() / deck, variables, folder.path(), ranks);
+    return run_deck(bed_folder() / deck, scene(folder, more), folder.path(), ranks);
+  }
+  static Variables scene(const Scratch &folder, const Variables &more) {
+    return with(more, {{"speed", "2"},
+                       {"ramp", "0.05"},
+                       {"length", "0.2"},
+                       {"margin", "0.05"},
+                       {"omega", "314.1592653589793"},
+                       {"Fw", "2940"},
+                       {"steps_per_cycle", "1000"},
+                       {"samples_per_cycle", "100"},
+                       {"out", folder.path().string()},
+                       {"start", (scratch().path() / "roller.restart").string()}});
   }
 
   static Scratch &scratch() {
@@ -190,6 +195,33 @@ TEST_F(BedDriven, ContinuesWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
     for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
       EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file << ", ranks " << ranks;
   }
+}
+
+// Ctrl-C in the third pass or later: ./drumlin passes shows those before.
+TEST_F(BedDriven, KeepsTheFinishedPassesWhenCtrlCStopsItInOne) {
+  const Scratch folder;
+  std::vector<std::string> words = {"-log", "none"};
+  for (const auto &[name, value] : scene(folder, {{"length", "0.4"}, {"passes", "40"}}))
+    words.insert(words.end(), {"-var", name, value});
+  const post::EngineCommand command = post::engine_command(bed_folder() / "in.drive", words, 1);
+  post::Program program;
+  program.words = command.words;
+  program.environment = command.environment;
+  program.folder = folder.path();
+  program.output = folder / post::program_output_file;
+  program.limit = 200.0;
+  program.stop_signal = SIGINT;
+  program.stop_when = [&](pid_t) { return post::dumped_steps(folder / "dump").size() >= 3U; };
+  const Outcome stopped = post::run_program(program);
+  EXPECT_TRUE(fails_with(stopped, "ERROR: drumlin/run: stopped by a signal at step "));
+  const Outcome outcome =
+      run_program({DRUMLIN_TOOLS, "passes", folder.path().string(), "--cell", "0.16"}, {}, folder.path());
+  well(outcome);
+  const std::size_t kept = post::read_table(folder / "passes.csv").rows() - 1U;
+  EXPECT_GE(kept, 2U);
+  EXPECT_LT(kept, 40U);
+  EXPECT_TRUE(printed(outcome, "Pass " + std::to_string(kept + 1) +
+                                   " is not finished and is left out: the run was stopped in it."));
 }
 
 TEST_F(BedDriven, GoesTheSameWayOnRanksOneTwoAndFour) {

@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -93,6 +94,15 @@ Outcome run_exact(const fs::path &folder, int /*mutant*/) {
                    {"exact", "--roller", "run/roller", "--setting", "low", "--cycles", "3", "--out", "out"});
 }
 
+Outcome run_passes(const fs::path &folder, int mutant) {
+  const fs::path quick = folder.parent_path() / "quick";
+  write_quick_gnuplot(quick);
+  constexpr int of_site = 3; // one in so many
+  if (mutant % of_site == 0)
+    return run_tools(folder, {"passes", "--field", "run/site.csv", "--out", "out"}, quick.string());
+  return run_tools(folder, {"passes", "run", "--cell", "0.4", "--out", "out"}, quick.string());
+}
+
 void write_chain(const fs::path &folder) {
   write_chain_run(folder / "run", "II", Transition::B, 4);
   // The engine's cycles.csv has energies and harmonics besides.
@@ -108,6 +118,58 @@ void write_chain(const fs::path &folder) {
 void write_bed(const fs::path &folder) {
   write_bed_run(folder / "run", Transition::B, 3);
   write_bed_dumps(folder / "run");
+}
+
+/// Two passes of 2 m at 1 m/s and 20 Hz over two rows of discs, and a file of a site.
+void write_drive(const fs::path &folder) {
+  fs::create_directories(folder / "run/dump");
+  constexpr double w = 40.0 * 3.14159265358979323846, r = 0.05;
+  std::string bed = "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond,"
+                    "work_excitation,s,pass,traction,torque,work_traction,work_torque\n";
+  std::string cycles =
+      "cycle,time,contact_share,a1_cos,a1_sin,a2_cos,a2_sin,ah_cos,ah_sin\n0,0,1,0,0,0,0,0,0\n";
+  for (int row = 0; row <= 1600; ++row) {
+    const double t = row / 400.0, s = t < 2.0 ? -1.0 + t : 3.0 - t;
+    bed += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},0,0,0,{:.9g},{:.9g},0,{:.9g},{:.9g},{},100,0,{:.9g},0\n",
+                       t, -5.0 * std::cos(w * t) / (w * w), 5.0 * std::sin(w * t) / w, 5.0 * std::cos(w * t),
+                       2000.0 * (9.81 + 5.0 * std::cos(w * t)) + 9810.0 + 100.0 * std::sin(w * t),
+                       100.0 * std::sin(w * t), 50.0 * t, s, t < 2.0 ? 1 : 2, 100.0 * t);
+  }
+  for (int cycle = 1; cycle <= 80; ++cycle)
+    cycles += fmt::format("{},{:.9g},1,5,0,0.5,0,0,0\n", cycle, cycle / 20.0);
+  std::string site =
+      "Time,CellN_m,CellE_m,Elevation_m,PassNumber,Speed_km/h,ValidPos,LastCMV,VibeState,LastTemp,_c\n";
+  for (int n = 0; n < 30; ++n)
+    site += fmt::format("2025/Oct/01 09:30:02.800,{:.2f},7.65,3.1,{},3.6km/h,Yes,{},On,?\n", 0.34 * (n % 15),
+                        1 + n / 15, 30 + n);
+  std::ofstream(folder / "run/bed.csv", std::ios::binary) << bed;
+  std::ofstream(folder / "run/cycles.csv", std::ios::binary) << cycles;
+  std::ofstream(folder / "run/site.csv", std::ios::binary) << site;
+  std::ofstream(folder / "run/parameters.csv", std::ios::binary)
+      << fmt::format("name,value\ndeck,drive\ndimension,2\nmeasure_from,-0.5\nmeasure_to,0.5\nspeed,1\nomega,"
+                     "{:.12g}\nFw,100\nm2,2000\nm3,1000\ntimestep,0.0005\nended,yes\n",
+                     w);
+  for (const int step : {0, 2000, 4000, 8000}) {
+    std::string balls, contacts;
+    int count = 0;
+    for (int i = 0; i < 30; ++i)
+      for (int layer = 0; layer < 2; ++layer) {
+        balls += fmt::format("{} {} {} 3 {:.9g} {:.9g} 0 0 0 0 0 0 0 0 0 0\n", ++count, layer == 0 ? 1 : 4, r,
+                             -1.5 + 2.0 * r * (i + 0.5), r + 2.0 * r * layer);
+        if (layer == 1) contacts += fmt::format("{} {} 0 10 0 0 1 0 0\n", count, count - 1);
+      }
+    for (const int type : {2, 3})
+      balls += fmt::format("{} {} 0.3 100 0 {} 0 0 0 0 0 0 0 0 0 0\n", ++count, type, type);
+    std::ofstream(folder / fmt::format("run/dump/balls_{}.dump", step), std::ios::binary) << fmt::format(
+        "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: ATOMS id type radius mass x y z vx vy "
+        "vz omegax omegay omegaz fx fy fz\n{}",
+        step, count, balls);
+    std::ofstream(folder / fmt::format("run/dump/contacts_{}.dump", step), std::ios::binary) << fmt::format(
+        "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ENTRIES\n30\nITEM: ENTRIES f_contacts[1] f_contacts[2] "
+        "f_contacts[3] f_contacts[4] f_contacts[5] f_contacts[6] f_contacts[7] f_contacts[8] "
+        "f_contacts[9]\n{}",
+        step, contacts);
+  }
 }
 
 void write_curves(const fs::path &folder) {
@@ -142,6 +204,12 @@ const std::vector<Subject> &subjects() {
        run_report},
       {"dumps", 100, write_bed, dump_files, run_report},
       {"vtk", 100, write_bed, dump_files, run_vtk},
+      {"passes",
+       150,
+       write_drive,
+       {"bed.csv", "cycles.csv", "site.csv", "site.csv", "parameters.csv", "dump/balls_0.dump",
+        "dump/balls_4000.dump", "dump/contacts_8000.dump"},
+       run_passes},
       {"advise", 40, write_curves, {"chain.csv", "scaling.csv"}, run_advise},
       {"roller", 300, write_roller, {"roller"}, run_exact},
   };

@@ -10,10 +10,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace drumlin::test {
@@ -77,6 +79,40 @@ TEST_F(IdentifyCommand, WritesAnswerTableAndPage) {
   // A second call replaces the results.
   well(identify({"run", "--accelerations-only", "--out", "found"}));
   EXPECT_EQ(post::read_table(scratch_ / "found/identify.csv").rows(), 2U);
+}
+
+// Of a way over two soils each part tells its own, also on the way back.
+TEST_F(IdentifyCommand, TakesAPartOfTheWay) {
+  post::write_files(
+      {{scratch_ / "way", "s (m),k (N/m),D (-)\n0,2e7,0.25\n6,2e7,0.25\n6,4e7,0.25\n12,4e7,0.25\n"}});
+  well(run_program({DRUMLIN_TOOLS, "exact", "--case", "II", "--transition", "B", "--way", "way", "--speed",
+                    "2", "--passes", "2", "--out", "driven"},
+                   {}, scratch_.path()));
+  for (const char *pass : {"1", "2"})
+    for (const auto &[from, to, k] : {std::tuple{"1", "5.9", 2e7}, {"6.1", "11", 4e7}}) {
+      const Outcome outcome =
+          identify({"driven", "--from-place", from, "--to-place", to, "--of-pass", pass, "--window", "1m"});
+      well(outcome);
+      EXPECT_TRUE(printed(outcome, "A window smears the soil over"));
+      EXPECT_TRUE(printed(outcome, "falls to a hundredth"));
+      const post::Table table = post::read_table(scratch_ / "results/identify/identify.csv");
+      EXPECT_NEAR(table.numbers("k [N/m]")[0], k, 1e-3 * k);
+      EXPECT_NEAR(table.numbers("D [-]")[0], 0.25, 1e-3);
+      const std::vector<double> begin = table.numbers("s_begin [m]"), end = table.numbers("s_end [m]");
+      ASSERT_GE(begin.size(), 4U);
+      const double tolerance = 2.0 / 40.0; // half a cycle
+      EXPECT_NEAR(std::min(begin[0], end[0]), std::stod(from), tolerance);
+      EXPECT_NEAR(std::max(begin[0], end[0]), std::stod(to), tolerance);
+      for (std::size_t i = 1; i < begin.size(); ++i)
+        EXPECT_NEAR(std::abs(end[i] - begin[i]), 1.0, tolerance);
+    }
+  write_run(scratch_ / "run");
+  fs::remove_all(scratch_ / "results");
+  expect_refused({"run", "--from-place", "1"}, "has no column s");
+  expect_refused({"run", "--window", "1m"},
+                 "--window is '1m'; allowed: metres only for a roller that drives");
+  expect_refused({"driven", "--window", "0.05m"}, "--window is '0.05m'; allowed: ");
+  expect_refused({"driven", "--from-place", "3", "--to-place", "3.2"}, "the number of cycles on the part");
 }
 
 TEST_F(IdentifyCommand, DrawsTheChainOverTheRecord) {

@@ -1,5 +1,6 @@
 // `drumlin meter` as a user meets it: records of runs and measured ones, and records that it refuses in one
 // line.
+#include "meter/along_way.h"
 #include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/files.h"
@@ -9,10 +10,13 @@
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/lines.h"
+#include "tests/support/ode.h"
 #include "tests/support/run_folders.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <filesystem>
@@ -128,6 +132,93 @@ const std::vector<std::string> as_measured = {"--column",        "time=Time:ms",
                                               "a_drum=Acc Z:-g", "--frequency",  "29"};
 
 // Whatever the name: no result replaces the record, or another result.
+// Far behind a step of the soil a roller that drives shows what one that stands there does; a window of half
+// a metre at 1 m/s and 20 Hz has ten cycles.
+TEST_F(MeterCommand, TakesWindowsByDistanceAlongTheWay) {
+  write_files({{folder_ / "way", "s (m),k (N/m),D (-)\n0,2e7,0.25\n8,2e7,0.25\n8,4e7,0.25\n16,4e7,0.25\n"}});
+  const auto exact = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {DRUMLIN_TOOLS, "exact", "--case", "II", "--transition", "B"});
+    well(run_program(words, {}, folder_));
+  };
+  exact({"--way", "way", "--speed", "1", "--passes", "2", "--out", "driven"});
+  const ChainHistory history = read_chain(folder_ / "driven/chain.csv");
+  const double frequency =
+      std::stod(read_parameters(folder_ / "driven/parameters.csv").at("omega")) / (2.0 * M_PI);
+  struct Part {
+    const char *from, *to, *pass, *k;
+  };
+  for (const Part &part : {Part{"5", "8", "1", "2e7"}, {"13", "16", "1", "4e7"}, {"0", "3", "2", "2e7"}}) {
+    exact({"--k", part.k, "--D", "0.25", "--cycles", "200", "--out", "stands"});
+    well(meter({"stands"}));
+    const Table standing = read_table(folder_ / "results/meter/meter.csv");
+    EXPECT_EQ(standing.header().back(), "stiffness"); // no places
+    const Outcome outcome = meter({"driven", "--from-place", part.from, "--to-place", part.to, "--of-pass",
+                                   part.pass, "--window", "0.5m"});
+    well(outcome);
+    const Table driven = read_table(folder_ / "results/meter/meter.csv");
+    const std::vector<double> begin = driven.numbers("s_begin [m]"), end = driven.numbers("s_end [m]");
+    ASSERT_GE(driven.rows(), 4U);
+    const double cycles = 2.0 * std::ceil(0.25 * frequency - 1e-9);
+    for (std::size_t i = 0; i < driven.rows(); ++i) {
+      EXPECT_EQ(driven.text("pass")[i], part.pass);
+      EXPECT_NEAR(std::abs(end[i] - begin[i]), cycles / frequency, 1e-6);
+      EXPECT_GE(std::min(begin[i], end[i]), std::stod(part.from) - 1e-6);
+      EXPECT_LE(std::max(begin[i], end[i]), std::stod(part.to) + 1e-6);
+      if (i > 0) {
+        EXPECT_NEAR(begin[i], end[i - 1], 1e-9);
+      }
+    }
+    for (const char *column : {"CMV [-]", "k_1 [N/m]", "contact_share [-]", "peak_force [N]"})
+      EXPECT_NEAR(driven.numbers(column).back(), standing.numbers(column).back(),
+                  2e-3 * std::abs(standing.numbers(column).back()))
+          << column << part.k;
+    EXPECT_TRUE(printed(outcome, fmt::format("A window smears the soil over {:.3g} m", cycles / frequency)));
+  }
+  EXPECT_TRUE(printed(meter({"stands"}), "CMV"));
+  EXPECT_FALSE(meter({"stands"}).says("smears"));
+  const auto refused = [&](std::vector<std::string> words, const char *says) {
+    const Outcome outcome = meter(std::move(words));
+    EXPECT_FALSE(outcome.ok());
+    expect_one_error(outcome.output, "drumlin meter: ");
+    EXPECT_TRUE(printed(outcome, says));
+  };
+  refused({"driven", "--from-place", "17"},
+          "the place to begin is '17'; allowed: a part of the way in pass 2");
+  refused({"driven", "--to-place", "17"}, "the place to end is '17'; allowed: ");
+  refused({"driven", "--from-place", "3", "--to-place", "2"}, "--to-place is '2'; allowed: a place beyond");
+  refused({"driven", "--of-pass", "3"}, "the pass is '3'; allowed: a pass of the record, 1 to 2");
+  refused({"driven", "--from-place", "3", "--to-place", "3.1"},
+          "the number of cycles on the part of the way");
+  refused({"driven", "--window", "0.1m"}, "the window is '0.1m'; allowed: ");
+  refused({"driven", "--window", "-1m"}, "--window is '-1'; allowed: ");
+  refused({"stands", "--window", "1m"}, "has no column s");
+  refused({"stands", "--from-place", "1"}, "has no column s");
+}
+
+// The slowest free motion, by an independent solution of the equations of motion.
+TEST_F(MeterCommand, TellsHowLongTheRollerRemembers) {
+  Record record;
+  record.m2 = 2000.0;
+  record.m3 = 1500.0;
+  record.parameters = {{"k23", "1e6"}, {"c23", "1e4"}};
+  const double k = 3e7, c = 8e4, k23 = 1e6, c23 = 1e4;
+  const double memory = memory_time(record, k, c).value();
+  oracle::Ode motion(
+      [&](double /*t*/, const oracle::State &y, oracle::State &rates) {
+        const double bond = k23 * (y[1] - y[0]) + c23 * (y[3] - y[2]);
+        rates = {y[2], y[3], (-k * y[0] - c * y[2] + bond) / *record.m2, -bond / *record.m3};
+      },
+      0.0, {0.0, 1.0, 0.0, 0.0}, {1.0, 1.0, 100.0, 100.0});
+  const auto size_at = [&](double time) { // by the energy of the frame on its bond
+    motion.advance(time);
+    return std::sqrt(k23 * std::pow(motion.state()[1], 2) + *record.m3 * std::pow(motion.state()[3], 2));
+  };
+  const double first = size_at(0.5 * memory), second = size_at(1.5 * memory);
+  EXPECT_NEAR(std::log(first / second) / std::log(100.0), 1.0, 0.06);
+  record.parameters.erase("k23");
+  EXPECT_FALSE(memory_time(record, k, c));
+}
+
 TEST_F(MeterCommand, KeepsTheRecord) {
   write_measured("field.csv", 600);
   write_chain_run(folder_ / "run", "II", Transition::B, 12);

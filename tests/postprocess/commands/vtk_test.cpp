@@ -27,6 +27,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <regex>
 #include <string>
 #include <vector>
@@ -211,6 +212,28 @@ TEST_F(VtkCommand, WritesThePhaseAndTheForcesOnTheDrum) {
 
 // The colour scale of a picture: the 99 % quantile leaves out the single fast soil ball of 6 m/s, and the
 // drum is not part of it at all.
+// Of a roller that drives, from the row of bed.csv of the same time; the last dump is behind its last row.
+TEST_F(VtkCommand, WritesPlaceAndPassOfARollerThatDrives) {
+  put("run/parameters.csv", "name,value\ndeck,drive\ntimestep,0.125\n");
+  std::string text = "time,s,pass,traction,work_excitation,work_traction,work_torque\n";
+  for (int row = 0; row <= 24; ++row)
+    text += fmt::format("{},{},{},0,0,0,0\n", 5 * row, -1.0 + 0.1 * row, row < 4 ? 1 : 2);
+  put("run/bed.csv", text + "125,1.");
+  ASSERT_TRUE(run({"run"}).ok());
+  const auto value = [&](int step, const char *name) {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName((folder_ / fmt::format("run/vtk/balls_{}.vtp", step)).c_str());
+    reader->Update();
+    vtkDataArray *array = reader->GetOutput()->GetFieldData()->GetArray(name);
+    return array == nullptr ? std::nullopt : std::optional(array->GetTuple1(0));
+  };
+  EXPECT_EQ(value(0, "s"), -1.0);
+  EXPECT_EQ(value(0, "pass_number"), 1.0);
+  EXPECT_NEAR(value(200, "s").value(), -0.5, 1e-12); // 25 s
+  EXPECT_EQ(value(200, "pass_number"), 2.0);
+  EXPECT_EQ(value(1000, "s"), std::nullopt); // 125 s
+}
+
 TEST_F(VtkCommand, WritesTheRangesOfTheValues) {
   put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\n");
   well(run({"run"}));

@@ -359,8 +359,61 @@ TEST_F(Passes, AnswersInOneSentenceOnAPage) {
   EXPECT_TRUE(contains(page, {"3 passes compact the lift", "no dumps with the roller on the measured part",
                               "Balls of soil that lie on no other soil after pass 3, and do not count: 1."}));
   expect_sound_page(folder_ / "made/out/passes", 4);
-  for (const char *name : {"passes.csv", "way.csv", "surface.csv", "depth.csv"})
+  for (const char *name :
+       {"passes.csv", "way.csv", "surface.csv", "depth.csv", "acceptance.csv", "variogram.csv"})
     EXPECT_TRUE(fs::exists(folder_ / "made/out" / name)) << name;
+}
+
+// CMV is 30, 60 and 90 in all five cells of the three passes.
+TEST_F(Passes, JudgesTheCellsByRulesOfAcceptance) {
+  write_run("run");
+  refused({"run", "--target", "-1"}, "--target is '-1'; allowed: ");
+  refused({"run", "--coverage", "0"}, "--coverage is '0'; allowed: ");
+  refused({"run", "--meter", "MDP"}, "--meter is 'MDP'; allowed: CMV, RMV, CCV, k_B");
+  refused({"run", "--meter", "E_vib", "--target", "1e6"},
+          "--target is '1e6'; allowed: only where cells have");
+  const Outcome outcome = passes({"run", "--target", "70"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(contains(outcome.output, {"CMV of the last pass is 90 in the mean of 5 cells", "0 %",
+                                        "100 % of the cells are at or above 70"}));
+  const Table table = read_table(folder_ / "run/acceptance.csv");
+  EXPECT_EQ(table.text("pass"), (std::vector<std::string>{"1", "2", "3", "last"}));
+  EXPECT_EQ(table.text("cells [-]"), (std::vector<std::string>(4, "5")));
+  const std::vector<double> coverage = table.numbers("coverage [-]");
+  EXPECT_EQ(coverage, (std::vector<double>{0.0, 0.0, 1.0, 1.0}));
+  EXPECT_EQ(table.text("gain [-]")[0], "");
+  EXPECT_NEAR(std::stod(table.text("gain [-]")[1]), 1.0, 1e-9);
+  EXPECT_NEAR(std::stod(table.text("gain [-]")[2]), 0.5, 1e-9);
+  EXPECT_TRUE(contains(read_text(folder_ / "run/passes/index.html"),
+                       {"2 of 3 acceptance criteria hold", "the last pass changes the mean by less than 5 %",
+                        "at least 80 % of the cells have CMV of 70 or more"}));
+  // Another meter, two runs together, no target.
+  write_run("other");
+  ASSERT_TRUE(passes({"run", "other", "--meter", "peak_force"}).ok());
+  const Table both = read_table(folder_ / "results/passes/acceptance.csv");
+  EXPECT_EQ(both.text("cells [-]").back(), "10");
+  EXPECT_NEAR(both.numbers("peak_force [N]").back(), 3e5, 1e-6);
+  EXPECT_EQ(both.text("coverage [-]").back(), "");
+  EXPECT_FALSE(
+      contains(read_text(folder_ / "results/passes/passes/index.html"), {"acceptance criteria hold"}));
+}
+
+// A GIF has a graphic control extension for each of its pictures.
+TEST_F(Passes, ShowsAPassInMotion) {
+  write_run("run");
+  for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8})
+    write_dump("run", {0.05, 0, 3000.0}, step_of(share * pass_time));
+  ASSERT_TRUE(passes({"run"}).ok());
+  expect_sound_page(folder_ / "run/passes", 6);
+  EXPECT_TRUE(contains(read_text(folder_ / "run/passes/index.html"),
+                       {"A pass in motion", "Pass 1 in 7 pictures", "figures/animation.gif"}));
+  const std::string gif = read_text(folder_ / "run/passes/figures/animation.gif");
+  EXPECT_EQ(gif.substr(0, 6), "GIF89a");
+  std::size_t pictures = 0;
+  const std::string control("\x21\xF9\x04", 3);
+  for (std::size_t at = gif.find(control); at != std::string::npos; at = gif.find(control, at + 1))
+    ++pictures;
+  EXPECT_EQ(pictures, 7U); // the state before, five, and that behind the pass
 }
 
 // The mean of three beds and its interval by Student's t.
@@ -399,6 +452,41 @@ TEST_F(Passes, LeavesOutAPassThatIsNotFinished) {
   ASSERT_TRUE(outcome.ok()) << outcome.output;
   EXPECT_EQ(read_table(folder_ / "run/passes.csv").rows(), 3u);
   EXPECT_TRUE(contains(outcome.output, {"2 passes compact", "Pass 3 is not finished and is left out"}));
+}
+
+// A run that was killed, or that filled the disk, ends in the middle of a row, or of the dump behind a pass.
+TEST_F(Passes, KeepsTheFinishedPassesOfARunThatWasKilled) {
+  DriveRun run;
+  run.ended = "no";
+  run.end = 2.5 * (pass_time + pause_time);
+  write_run("run", run);
+  const std::string bed = read_text(folder_ / "run/bed.csv"), cycles = read_text(folder_ / "run/cycles.csv");
+  ASSERT_TRUE(passes({"run"}).ok());
+  const Table whole = read_table(folder_ / "run/passes.csv");
+  // Without its line end, in its last number, in the middle, in its first number.
+  for (const std::size_t less : {1U, 3U, 60U, 190U})
+    for (const bool of_cycles : {false, true}) {
+      const std::string &text = of_cycles ? cycles : bed;
+      const std::size_t row = text.rfind('\n', text.size() - 2) + 2; // its first digit stays
+      const std::size_t end = std::max(text.size() - less, row);
+      write_files({{folder_ / "run/bed.csv", of_cycles ? bed : bed.substr(0, end)},
+                   {folder_ / "run/cycles.csv", of_cycles ? cycles.substr(0, end) : cycles}});
+      const Outcome outcome = passes({"run"});
+      ASSERT_TRUE(outcome.ok()) << outcome.output << less;
+      EXPECT_TRUE(contains(outcome.output, {"2 passes compact", "Pass 3 is not finished and is left out"}));
+      const Table cut = read_table(folder_ / "run/passes.csv");
+      ASSERT_EQ(cut.rows(), 3U);
+      for (const char *column : {"settlement [m]", "CMV [-]", "CCV [-]", "k_B [N/m]", "mode"})
+        EXPECT_EQ(cut.text(column), whole.text(column)) << column;
+    }
+  run.end = 0.0;
+  write_run("run", run);
+  const fs::path last =
+      folder_ / "run/dump" / fmt::format("balls_{}.dump", step_of(3.0 * (pass_time + pause_time)));
+  write_files({{last, read_text(last).substr(0, 5000)}});
+  const Outcome outcome = passes({"run"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(contains(outcome.output, {"2 passes compact", "Pass 3 is left out", "is cut short"}));
 }
 
 TEST_F(Passes, RefusesInOneLine) {

@@ -1,0 +1,298 @@
+#include "passes/map_figures.h"
+
+#include "pages/figure_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+
+std::string label_of(const MeterMap &map) { return fmt::format("{} [{}]", map.meter, map.unit); }
+
+std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
+
+/// Means over the cells side by side, by their place along the way in whole cells.
+std::map<long, double> along_of(const MeterMap &map, const std::vector<MapValue> &values) {
+  std::map<long, std::pair<double, double>> sums;
+  for (const MapValue &one : values) {
+    if (map.places[one.place].area != 0) continue;
+    auto &[sum, count] = sums[std::lround(std::floor(map.places[one.place].along / map.cell + 1e-6))];
+    sum += one.value;
+    count += 1.0;
+  }
+  std::map<long, double> means;
+  for (const auto &[bin, sum] : sums)
+    means[bin] = sum.first / sum.second;
+  return means;
+}
+
+/// Where the first cell of the first area begins, as a share of a cell: bins are whole cells from there.
+MeterMap from_first_cell(const MeterMap &map) {
+  MeterMap moved = map;
+  double least = INFINITY;
+  for (const MapPlace &place : map.places)
+    if (place.area == 0) least = std::min(least, place.along);
+  for (MapPlace &place : moved.places)
+    place.along -= least - 0.5 * map.cell;
+  return moved;
+}
+
+/// Colours from the least to the largest value.
+std::string color_range_of(const std::vector<double> &values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *least < *most ? axis_range(*least, *most) : axis_range(*least - 1.0, *most + 1.0);
+}
+
+/// A panel of one line with markers.
+Panel line_panel(const std::string &figure, const std::string &key, const std::string &title,
+                 const std::string &x, const std::string &y) {
+  Panel panel{title, x, y, {}};
+  panel.add(curve(figure, key, "$2", "3", CurveStyle::series_1), "");
+  return panel;
+}
+
+} // namespace
+
+CurveStyle pass_line(std::size_t n) {
+  constexpr std::array<CurveStyle, 5> styles = {CurveStyle::line_5, CurveStyle::line_2, CurveStyle::line_3,
+                                                CurveStyle::line_4, CurveStyle::line_1};
+  return styles[n % styles.size()];
+}
+
+std::vector<std::size_t> shown_passes(std::size_t passes) {
+  const std::set<std::size_t> some = {0, std::min<std::size_t>(1, passes), std::min<std::size_t>(2, passes),
+                                      (passes + 2) / 2, passes};
+  return {some.begin(), some.end()};
+}
+
+JudgedMap::JudgedMap(MeterMap values, const AcceptanceRule &asked)
+    : map(std::move(values)), rule(asked), rows(cells_of_passes(map, rule)), variogram(semivariogram(map)) {}
+
+std::vector<Acceptance> criteria_of(const JudgedMap &judged) {
+  const AcceptanceRule &rule = judged.rule;
+  if (!rule.target) return {};
+  const PassCells &last = judged.rows.back();
+  const std::string unit = judged.map.unit_words();
+  std::vector<Acceptance> criteria;
+  constexpr double rounding = 1e-9;
+  criteria.push_back({fmt::format("at least {} of the cells have {} of {:g}{} or more after their last pass",
+                                  percent(rule.coverage), judged.map.meter, *rule.target, unit),
+                      fmt::format("{} of {} cells", percent(*last.coverage), last.cells),
+                      *last.coverage >= rule.coverage - rounding});
+  criteria.push_back(
+      {fmt::format("the coefficient of variation of the cells is at most {}", percent(rule.variation)),
+       std::isfinite(last.variation()) ? percent(last.variation()) : "one cell",
+       last.variation() <= rule.variation + rounding});
+  criteria.push_back({fmt::format("the last pass changes the mean by less than {}", percent(rule.gain)),
+                      last.gain ? fmt::format("{:+.1f} %", 100.0 * *last.gain) : "not known",
+                      last.gain && std::abs(*last.gain) < rule.gain});
+  return criteria;
+}
+
+PageFigure map_figure(const std::string &label, const JudgedMap &judged) {
+  const std::string name = "meter";
+  const MeterMap &map = judged.map;
+  PageFigure figure = page_figure(
+      label,
+      fmt::format(
+          "{} of the cells of {:g} m along the way in each pass, and the last passes as curves, drawn "
+          "at the middles of the cells.",
+          map.meter, map.cell),
+      {name, fmt::format("{} along the way", map.meter), {}, 1}, 0.8);
+  const MeterMap moved = from_first_cell(map);
+  double first = INFINITY; // place of the first cell's beginning
+  for (const MapPlace &place : map.places)
+    if (place.area == 0) first = std::min(first, place.along - 0.5 * map.cell);
+  CurveTable table(fmt::format("s [m],pass,left [m],right [m],bottom,top,{}", label_of(map)));
+  std::vector<double> shown;
+  double end_of_way = first;
+  std::vector<std::map<long, double>> passes;
+  for (int pass = 1; pass <= map.passes(); ++pass) {
+    passes.push_back(along_of(moved, moved.of_pass(pass)));
+    for (const auto &[bin, value] : passes.back()) {
+      const double left = first + static_cast<double>(bin) * map.cell;
+      table.row("map", {left + 0.5 * map.cell, static_cast<double>(pass), left, left + map.cell, pass - 0.5,
+                        pass + 0.5, value});
+      shown.push_back(value);
+      end_of_way = std::max(end_of_way, left + map.cell);
+    }
+  }
+  Panel colours{"", "place along the way [m]", "pass", {}};
+  colours.add(curve(name, "map", "$2", "3:4:5:6:7:8", CurveStyle::cells), "");
+  colours.color_label = label_of(map);
+  colours.color_range = color_range_of(shown);
+  colours.whole_y = map.passes() <= 20;
+  colours.y_range = fmt::format("[0.5:{}.5]", map.passes());
+  Panel curves{"", "place along the way [m]", label_of(map), {}};
+  std::size_t n = 0;
+  for (const std::size_t pass : shown_passes(static_cast<std::size_t>(map.passes()))) {
+    if (pass == 0 || passes[pass - 1].empty()) continue;
+    const std::string key = fmt::format("pass {}", pass);
+    long before = passes[pass - 1].begin()->first;
+    for (const auto &[bin, value] : passes[pass - 1]) {
+      if (bin > before + 1) table.row(key, {NAN, NAN, NAN, NAN, NAN, NAN, NAN}); // a gap
+      before = bin;
+      table.row(key, {first + (static_cast<double>(bin) + 0.5) * map.cell, static_cast<double>(pass), NAN,
+                      NAN, NAN, NAN, value});
+    }
+    curves.curves.push_back(curve(name, key, "$2", "8", pass_line(++n)));
+  }
+  if (judged.rule.target) {
+    for (const double end : {first, end_of_way})
+      table.row("target", {end, NAN, NAN, NAN, NAN, NAN, *judged.rule.target});
+    curves.curves.push_back(curve(name, "target", "$2", "8", CurveStyle::limit));
+  }
+  curves.y_range = "[0:*]";
+  colours.x_range = curves.x_range = axis_range(first, end_of_way);
+  figure.csv = table.text();
+  figure.figure.panels = {colours, curves};
+  return figure;
+}
+
+PageFigure plan_figure(const std::string &label, const JudgedMap &judged) {
+  const std::string name = "plan";
+  const MeterMap &map = judged.map;
+  PageFigure figure = page_figure(
+      label,
+      fmt::format("{} of each cell in its last pass, in plan: east and north of the corner of all cells.",
+                  map.meter),
+      {name, fmt::format("{} in plan", map.meter), {}, 1, false, true}, 0.9);
+  CurveTable table(fmt::format("east [m],north [m],left [m],right [m],bottom [m],top [m],{}", label_of(map)));
+  std::vector<double> shown;
+  const double half = 0.5 * map.cell;
+  for (const MapValue &one : map.last()) {
+    const MapPlace &place = map.places[one.place];
+    if (place.area != 0) continue;
+    table.row("cells", {place.east, place.north, place.east - half, place.east + half, place.north - half,
+                        place.north + half, one.value});
+    shown.push_back(one.value);
+  }
+  Panel panel{"", "east [m]", "north [m]", {}};
+  panel.add(curve(name, "cells", "$2", "3:4:5:6:7:8", CurveStyle::cells), "");
+  panel.color_label = label_of(map);
+  panel.color_range = color_range_of(shown);
+  panel.equal_scales = true;
+  figure.figure.panels = {panel};
+  figure.csv = table.text();
+  return figure;
+}
+
+std::optional<PageFigure> rule_figure(const std::string &label, const JudgedMap &judged, bool mean) {
+  const std::string name = "rules";
+  const MeterMap &map = judged.map;
+  const AcceptanceRule &rule = judged.rule;
+  PageFigure figure = page_figure(label, "", {name, "What rules of acceptance ask for", {}, 2});
+  CurveTable table("pass or distance,value,low,high");
+  std::string caption;
+  const std::string passes_range = fmt::format("[0.7:{}.3]", std::max(2, map.passes()));
+  const auto add = [&](Panel panel) {
+    if (panel.x_label == "passes") {
+      panel.x_range = passes_range;
+      panel.whole_x = map.passes() <= 12;
+    }
+    figure.figure.panels.push_back(std::move(panel));
+  };
+  const auto line_at = [&](const std::string &key, double height) {
+    table.row(key, {0.7, height});
+    table.row(key, {std::max(2, map.passes()) + 0.3, height});
+  };
+  const auto rows_end = judged.rows.end() - 1; // the last row is no pass
+  if (mean) {
+    for (auto row = judged.rows.begin(); row != rows_end; ++row)
+      table.row("mean", {static_cast<double>(row->pass), row->mean, row->mean - row->deviation,
+                         row->mean + row->deviation});
+    Panel panel = line_panel(name, "mean", "Mean of the cells", "passes", label_of(map));
+    panel.add(curve(name, "mean", "$2", "3:4:5", CurveStyle::spread), "");
+    panel.y_range = "[0:*]";
+    if (rule.target) {
+      line_at("target", *rule.target);
+      panel.add(curve(name, "target", "$2", "3", CurveStyle::limit), "target");
+    }
+    add(std::move(panel));
+    caption += "Bars: standard deviation of the cells. ";
+  }
+  bool gains = false;
+  for (auto row = judged.rows.begin(); row != rows_end; ++row)
+    if (row->gain) {
+      table.row("gain", {static_cast<double>(row->pass), 100.0 * *row->gain});
+      gains = true;
+    }
+  if (gains) {
+    Panel panel = line_panel(name, "gain", fmt::format("Gain of the mean {}", map.meter), "passes",
+                             "gain of the mean per pass [%]");
+    for (const double sign : {1.0, -1.0}) {
+      const std::string key = sign > 0.0 ? "bound" : "lower bound";
+      line_at(key, sign * 100.0 * rule.gain);
+      panel.add(curve(name, key, "$2", "3", CurveStyle::limit),
+                sign > 0.0 ? fmt::format("± {:g} %", 100.0 * rule.gain) : "");
+    }
+    add(std::move(panel));
+    caption += "Gain: of the mean of the cells that both passes have, over the pass before. ";
+  }
+  if (rule.target) {
+    for (auto row = judged.rows.begin(); row != rows_end; ++row)
+      table.row("coverage", {static_cast<double>(row->pass), 100.0 * *row->coverage});
+    Panel panel = line_panel(name, "coverage", "Coverage", "passes", "cells at or above the target [%]");
+    line_at("least coverage", 100.0 * rule.coverage);
+    panel.add(curve(name, "least coverage", "$2", "3", CurveStyle::limit),
+              fmt::format("{:g} %", 100.0 * rule.coverage));
+    panel.y_range = "[0:105]";
+    add(std::move(panel));
+  }
+  if (!judged.variogram.empty()) {
+    for (const VariogramRow &row : judged.variogram)
+      table.row("semivariance", {row.distance, row.semivariance});
+    Panel panel =
+        line_panel(name, "semivariance", "Semivariogram of the last pass", "distance along the way [m]",
+                   map.unit == "-" ? "semivariance [-]" : fmt::format("semivariance [({})^2]", map.unit));
+    const double variance = std::pow(judged.rows.back().deviation, 2);
+    table.row("variance", {0.0, variance});
+    table.row("variance", {judged.variogram.back().distance, variance});
+    panel.add(curve(name, "variance", "$2", "3", CurveStyle::limit), "variance of the cells");
+    panel.x_range = "[0:*]";
+    panel.y_range = "[0:*]";
+    add(std::move(panel));
+    constexpr std::size_t few = 30;
+    const bool sparse = std::any_of(judged.variogram.begin(), judged.variogram.end(),
+                                    [](const VariogramRow &row) { return row.pairs < few; });
+    caption += "Semivariance: half the mean square of the differences of cells at a distance, up to half the "
+               "way; where it levels off, cells know nothing of each other.";
+    if (sparse) caption += " Some of its points are of less than 30 pairs (variogram.csv), which is few.";
+  } else {
+    caption += fmt::format("A semivariogram is made of {} cells or more.", least_variogram_cells);
+  }
+  if (figure.figure.panels.empty()) return std::nullopt;
+  figure.caption = caption;
+  figure.csv = table.text();
+  return figure;
+}
+
+PageTable map_table(const JudgedMap &judged) {
+  const MeterMap &map = judged.map;
+  PageTable table(
+      "cells_by_pass", fmt::format("{} of the cells", map.meter),
+      fmt::format("pass | cells | mean ({0}) | standard deviation ({0}) | coefficient of variation "
+                  "(%) | gain of the mean (%) | at or above the target (%)",
+                  map.unit));
+  const auto number = [](double value, const char *format) {
+    return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string(no_value);
+  };
+  for (const PassCells &row : judged.rows)
+    table.add({row.pass == 0 ? "last of each cell" : std::to_string(row.pass), std::to_string(row.cells),
+               number(row.mean, "{:.4g}"), number(row.deviation, "{:.3g}"),
+               number(100.0 * row.variation(), "{:.1f}"), number(100.0 * row.gain.value_or(NAN), "{:+.1f}"),
+               number(100.0 * row.coverage.value_or(NAN), "{:.0f}")});
+  if (!judged.rule.target)
+    table.notes.emplace_back("No target was given (--target): coverage is not known and nothing is judged.");
+  return table;
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,44 @@
+// The parts of a page that show a map of meter values: along the way and over passes, in plan, and what rules
+// of acceptance say.
+#pragma once
+
+#include "pages/page.h"
+#include "passes/meter_map.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// The style of the n-th of at most five lines.
+CurveStyle pass_line(std::size_t n);
+/// The passes that a figure of curves shows, 0 the state before the first: at most five.
+std::vector<std::size_t> shown_passes(std::size_t passes);
+
+/// A map with what rules say of it.
+struct JudgedMap {
+  MeterMap map;
+  AcceptanceRule rule;
+  std::vector<PassCells> rows;
+  std::vector<VariogramRow> variogram;
+
+  JudgedMap(MeterMap values, const AcceptanceRule &asked);
+};
+
+/// The criteria of the rule; none without a target.
+std::vector<Acceptance> criteria_of(const JudgedMap &judged);
+
+/// The colour map over place and passes, of the first area, and the last passes as curves; where cells lie
+/// side by side across the way, means over them.
+PageFigure map_figure(const std::string &label, const JudgedMap &judged);
+/// The last value of each cell in plan, of the first area.
+PageFigure plan_figure(const std::string &label, const JudgedMap &judged);
+/// The mean over passes (if `mean`), its gain, coverage, semivariogram, as far as there are any; nothing if
+/// there is none.
+std::optional<PageFigure> rule_figure(const std::string &label, const JudgedMap &judged, bool mean);
+/// What each pass has, as acceptance.csv.
+PageTable map_table(const JudgedMap &judged);
+
+} // namespace drumlin::post

@@ -1,0 +1,234 @@
+#include "passes/meter_map.h"
+
+#include "support/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr std::array<CellMeter, 7> meters = {
+    {{"CMV", "-", [](const WayCell &cell) { return cell.meter.cmv; }},
+     {"RMV", "-", [](const WayCell &cell) { return cell.meter.rmv; }},
+     {"CCV", "-", [](const WayCell &cell) { return cell.ccv; }},
+     {"k_B", "N/m", [](const WayCell &cell) { return cell.meter.k_B; }},
+     {"E_vib", "Pa", [](const WayCell &cell) { return cell.meter.E_vib; }},
+     {"contact_share", "-", [](const WayCell &cell) { return cell.meter.contact_share; }},
+     {"peak_force", "N", [](const WayCell &cell) { return cell.meter.peak_force; }}}};
+
+PassCells row_of(int pass, const std::vector<MapValue> &values, const AcceptanceRule &rule) {
+  PassCells row;
+  row.pass = pass;
+  row.cells = values.size();
+  const auto count = static_cast<double>(values.size());
+  for (const MapValue &one : values)
+    row.mean += one.value / count;
+  double squares = 0.0, above = 0.0;
+  for (const MapValue &one : values) {
+    squares += (one.value - row.mean) * (one.value - row.mean);
+    if (rule.target && one.value >= *rule.target) above += 1.0;
+  }
+  row.deviation = values.size() > 1 ? std::sqrt(squares / (count - 1.0)) : NAN;
+  if (rule.target) row.coverage = above / count;
+  return row;
+}
+
+/// The relative change of the mean over the cells that two passes have both.
+std::optional<double> gain_between(const std::vector<MapValue> &before, const std::vector<MapValue> &after) {
+  double first = 0.0, second = 0.0;
+  auto earlier = before.begin();
+  for (const MapValue &one : after) {
+    while (earlier != before.end() && earlier->place < one.place)
+      ++earlier;
+    if (earlier == before.end()) break;
+    if (earlier->place != one.place) continue;
+    first += earlier->value;
+    second += one.value;
+  }
+  return first > 0.0 ? std::optional(second / first - 1.0) : std::nullopt;
+}
+
+std::string cell_of(double value) { return std::isfinite(value) ? number_text(value) : ""; }
+std::string cell_of(std::optional<double> value) { return value ? cell_of(*value) : ""; }
+
+} // namespace
+
+std::string MeterMap::unit_words() const { return unit == "-" || unit == "?" ? "" : " " + unit; }
+
+std::vector<MapValue> MeterMap::of_pass(int pass) const {
+  const auto range = std::equal_range(values.begin(), values.end(), MapValue{pass, 0, 0.0},
+                                      [](const MapValue &a, const MapValue &b) { return a.pass < b.pass; });
+  return {range.first, range.second};
+}
+
+std::vector<MapValue> MeterMap::last() const {
+  std::vector<MapValue> found(places.size(), MapValue{0, 0, 0.0});
+  for (const MapValue &one : values) // later passes stand behind earlier ones
+    found[one.place] = one;
+  found.erase(std::remove_if(found.begin(), found.end(), [](const MapValue &one) { return one.pass == 0; }),
+              found.end());
+  return found;
+}
+
+const CellMeter &cell_meter(const std::string &name) {
+  std::string names;
+  for (const CellMeter &meter : meters) {
+    if (name == meter.name) return meter;
+    names += (names.empty() ? "" : ", ") + std::string(meter.name);
+  }
+  throw std::invalid_argument(names);
+}
+
+MeterMap meter_map(const std::vector<PassesResult> &results, const CellMeter &meter) {
+  MeterMap map;
+  map.meter = meter.name;
+  map.unit = meter.unit;
+  map.cell = results.front().cell;
+  for (std::size_t run = 0; run < results.size(); ++run) {
+    const PassesResult &result = results[run];
+    const std::size_t first = map.places.size(), count = result.cells.size() / result.passes.size();
+    for (std::size_t i = 0; i < count; ++i)
+      map.places.push_back({run, 0.5 * (result.cells[i].part.from + result.cells[i].part.to), 0.0});
+    for (std::size_t i = count; count > 0 && i < result.cells.size(); ++i)
+      if (const std::optional<double> value = meter.value(result.cells[i]);
+          result.cells[i].cycles > 0 && value && std::isfinite(*value))
+        map.values.push_back({result.cells[i].pass, first + i % count, *value});
+  }
+  std::sort(map.values.begin(), map.values.end(), [](const MapValue &a, const MapValue &b) {
+    return std::pair(a.pass, a.place) < std::pair(b.pass, b.place);
+  });
+  return map;
+}
+
+std::vector<PassCells> cells_of_passes(const MeterMap &map, const AcceptanceRule &rule) {
+  if (map.values.empty()) return {};
+  std::vector<PassCells> rows;
+  std::vector<MapValue> before;
+  for (int pass = 1; pass <= map.passes(); ++pass) {
+    std::vector<MapValue> values = map.of_pass(pass);
+    if (values.empty()) {
+      before.clear();
+      continue;
+    }
+    rows.push_back(row_of(pass, values, rule));
+    if (!before.empty()) rows.back().gain = gain_between(before, values);
+    before = std::move(values);
+  }
+  const std::optional<double> gain = rows.back().gain;
+  rows.push_back(row_of(0, map.last(), rule));
+  rows.back().gain = gain;
+  return rows;
+}
+
+std::optional<int> passes_until_gain(const std::vector<PassCells> &rows, const AcceptanceRule &rule) {
+  std::optional<int> level;
+  if (rows.empty()) return level;
+  for (std::size_t n = rows.size() - 1; n-- > 1;) {
+    if (!rows[n].gain || std::abs(*rows[n].gain) >= rule.gain) break;
+    level = rows[n - 1].pass;
+  }
+  return level;
+}
+
+std::vector<VariogramRow> semivariogram(const MeterMap &map) {
+  const std::vector<MapValue> values = map.last();
+  if (values.size() < least_variogram_cells) return {};
+  // Cells lane by lane, along the way, so that the neighbours of one stand near it.
+  std::map<std::pair<std::size_t, long>, std::vector<std::pair<double, std::size_t>>> lanes;
+  double low = INFINITY, high = -INFINITY;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const MapPlace &place = map.places[values[i].place];
+    lanes[{place.area, std::lround(place.across / map.cell)}].emplace_back(place.along, i);
+    low = std::min(low, place.along);
+    high = std::max(high, place.along);
+  }
+  constexpr double most_classes = 100.0;
+  const auto classes =
+      static_cast<std::size_t>(std::clamp(std::round(0.5 * (high - low) / map.cell), 1.0, most_classes));
+  struct Sum {
+    double distance = 0.0, squares = 0.0;
+    std::size_t pairs = 0;
+  };
+  std::vector<Sum> sums(classes + 1);
+  for (auto &[key, lane] : lanes)
+    std::sort(lane.begin(), lane.end());
+  for (const auto &[key, lane] : lanes)
+    for (const long beside : {0L, 1L}) { // a lane that is not straight on the grid has cells in two rows
+      const auto other = lanes.find({key.first, key.second + beside});
+      if (other == lanes.end()) continue;
+      for (const auto &[along, i] : lane) {
+        const double reach = (static_cast<double>(classes) + 0.5) * map.cell;
+        const auto from = std::lower_bound(other->second.begin(), other->second.end(),
+                                           std::pair(beside == 0 ? along : along - reach, std::size_t{0}));
+        for (auto at = from; at != other->second.end() && at->first - along < reach; ++at) {
+          if (at->second == i) continue;
+          const MapPlace &one = map.places[values[i].place], &two = map.places[values[at->second].place];
+          const double distance = std::abs(two.along - one.along);
+          const auto n = static_cast<std::size_t>(std::lround(distance / map.cell));
+          if (std::abs(two.across - one.across) >= 0.5 * map.cell || n == 0 || n > classes) continue;
+          const double difference = values[at->second].value - values[i].value;
+          sums[n].distance += distance;
+          sums[n].squares += difference * difference;
+          ++sums[n].pairs;
+        }
+      }
+    }
+  std::vector<VariogramRow> rows;
+  for (const Sum &sum : sums)
+    if (sum.pairs > 0) {
+      const auto pairs = static_cast<double>(sum.pairs);
+      rows.push_back({sum.distance / pairs, sum.pairs, 0.5 * sum.squares / pairs});
+    }
+  return rows;
+}
+
+std::string acceptance_csv(const MeterMap &map, const std::vector<PassCells> &rows) {
+  std::string text = csv_line({"pass", "cells [-]", fmt::format("{} [{}]", map.meter, map.unit),
+                               fmt::format("{}_scatter [{}]", map.meter, map.unit),
+                               "coefficient_of_variation [-]", "gain [-]", "coverage [-]"});
+  for (const PassCells &row : rows)
+    text += csv_line({row.pass == 0 ? "last" : std::to_string(row.pass), std::to_string(row.cells),
+                      cell_of(row.mean), cell_of(row.deviation), cell_of(row.variation()), cell_of(row.gain),
+                      cell_of(row.coverage)});
+  return text;
+}
+
+std::string variogram_csv(const MeterMap &map, const std::vector<VariogramRow> &rows) {
+  std::string text =
+      csv_line({"distance [m]", "pairs [-]",
+                map.unit == "-" ? "semivariance [-]" : fmt::format("semivariance [({})2]", map.unit)});
+  for (const VariogramRow &row : rows)
+    text += csv_line({cell_of(row.distance), std::to_string(row.pairs), cell_of(row.semivariance)});
+  return text;
+}
+
+std::string answer_of(const MeterMap &map, const std::vector<PassCells> &rows, const AcceptanceRule &rule) {
+  if (rows.empty()) return fmt::format("No cell has a value of {}.", map.meter);
+  const PassCells &last = rows.back();
+  const std::string unit = map.unit_words();
+  std::string text = fmt::format("{} of the last pass is {:.4g}{} in the mean of {} cells", map.meter,
+                                 last.mean, unit, last.cells);
+  if (std::isfinite(last.variation()))
+    text += fmt::format(", coefficient of variation {:.0f} %", 100.0 * last.variation());
+  if (const std::optional<int> level = passes_until_gain(rows, rule))
+    text += fmt::format("; after {} {} the gain of the mean per pass is below {:g} %", *level,
+                        *level == 1 ? "pass" : "passes", 100.0 * rule.gain);
+  else if (last.gain)
+    text += fmt::format("; the last pass still changed the mean by {:+.0f} %", 100.0 * *last.gain);
+  if (last.coverage)
+    text += fmt::format("; {:.0f} % of the cells are at or above {:g}{}", 100.0 * *last.coverage,
+                        *rule.target, unit);
+  else
+    text += "; without a target (--target) nothing is judged";
+  return text + ".";
+}
+
+} // namespace drumlin::post

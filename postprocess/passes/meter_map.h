@@ -1,0 +1,100 @@
+// Meter values of the cells of a way, pass after pass, of runs or from a file of a site, and what rules of
+// acceptance ask of them: gain of the mean per pass, coverage, coefficient of variation, semivariogram.
+#pragma once
+
+#include "passes/values.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// A cell of the ground.
+struct MapPlace {
+  std::size_t area = 0;             ///< places of different areas, such as two runs, are no neighbours
+  double along = 0.0, across = 0.0; ///< m, of its middle, along the way and to the left of it
+  double east = 0.0, north = 0.0;   ///< m, of a site: in plan
+};
+
+/// What the meter has shown in a cell in a pass.
+struct MapValue {
+  int pass = 1;          ///< counted from 1
+  std::size_t place = 0; ///< of MeterMap::places
+  double value = 0.0;
+};
+
+struct MeterMap {
+  std::string meter = "CMV", unit = "-"; ///< "?": not known
+  double cell = 0.0;                     ///< m, side of a cell
+  std::vector<MapPlace> places;
+  std::vector<MapValue> values; ///< by pass, then by place; at most one for each of both
+
+  /// The unit behind a number, with a blank before it; empty if there is none.
+  std::string unit_words() const;
+  int passes() const { return values.empty() ? 0 : values.back().pass; }
+  /// The values of a pass.
+  std::vector<MapValue> of_pass(int pass) const;
+  /// The value of each cell in its last pass.
+  std::vector<MapValue> last() const;
+};
+
+/// A meter that cells of a run may be judged by, by its name in way.csv and passes.csv.
+struct CellMeter {
+  const char *name, *unit;
+  std::optional<double> (*value)(const WayCell &);
+};
+/// The meter of this name; std::invalid_argument with the names that there are.
+const CellMeter &cell_meter(const std::string &name);
+
+/// The cells of runs, an area each; without values if no cell has one, as of a roller that does not shake.
+MeterMap meter_map(const std::vector<PassesResult> &results, const CellMeter &meter);
+
+/// What an acceptance asks for, shares from 0 to 1.
+struct AcceptanceRule {
+  std::optional<double> target; ///< of the meter; without it nothing is judged
+  double coverage = 0.8;        ///< least share of the cells whose value is at least the target
+  double variation = 0.2;       ///< largest coefficient of variation of the cells
+  double gain = 0.05;           ///< of the mean in the last pass, below which further passes gain nothing
+};
+
+/// The cells of a pass, or of the last pass of each cell.
+struct PassCells {
+  int pass = 0; ///< 0: the last of each cell
+  std::size_t cells = 0;
+  double mean = 0.0, deviation = 0.0; ///< standard deviation; NaN of less than two cells
+  std::optional<double> gain; ///< relative, of the mean of the cells that have this pass and the one before
+  std::optional<double> coverage; ///< share of the cells at or above the target
+
+  double variation() const { return deviation / mean; }
+};
+/// A row for each pass, then that of the last pass of each cell; none without values.
+std::vector<PassCells> cells_of_passes(const MeterMap &map, const AcceptanceRule &rule);
+
+/// The least number of passes after which no pass has changed the mean by the rule's gain or more; nothing if
+/// the last one still did or if there are less than two.
+std::optional<int> passes_until_gain(const std::vector<PassCells> &rows, const AcceptanceRule &rule);
+
+/// Half the mean square of the differences of values at a distance along the way.
+struct VariogramRow {
+  double distance = 0.0; ///< m, mean of the pairs
+  std::size_t pairs = 0;
+  double semivariance = 0.0; ///< unit of the meter, squared
+};
+/// The least number of cells of which a semivariogram is made.
+constexpr std::size_t least_variogram_cells = 10;
+/// Of the values of the last pass of each cell: pairs of one area and lane, less than half a cell apart
+/// across the way, by their distance in whole cells up to half the length of the way. Empty with too few
+/// cells.
+std::vector<VariogramRow> semivariogram(const MeterMap &map);
+
+/// acceptance.csv: a row for each pass, and one with `last` for the last pass of each cell.
+std::string acceptance_csv(const MeterMap &map, const std::vector<PassCells> &rows);
+/// variogram.csv
+std::string variogram_csv(const MeterMap &map, const std::vector<VariogramRow> &rows);
+
+/// In one sentence: mean, scatter and gain of the last pass, coverage if there is a target.
+std::string answer_of(const MeterMap &map, const std::vector<PassCells> &rows, const AcceptanceRule &rule);
+
+} // namespace drumlin::post
