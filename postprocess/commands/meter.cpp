@@ -149,12 +149,16 @@ void run(const Arguments &arguments) {
   if (task.window_seconds) task.options.window = cycles_in(*task.window_seconds, result.record.period());
   result.options = task.options;
   result.windows = meter_windows(result.cycles, result.options);
+  result.ends = both_ends(result.record, result.options);
 
   for (const std::string &line : result.record.notes)
     fmt::print("{}\n", line);
   fmt::print("{}: {}\n{}\n", result.record.file.string(), answer_line(result), source_words(result));
   if (const std::string words = width_words(result); !words.empty()) fmt::print("{}\n", words);
   print_windows(result);
+  if (result.ends)
+    for (const std::string &line : answer_lines(*result.ends, result.windows.back()))
+      fmt::print("{}\n", line);
   const fs::path place = fs::weakly_canonical(fs::absolute(task.out));
   make_output_folder(place.parent_path());
   FolderInProgress draft(place);

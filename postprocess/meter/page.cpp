@@ -220,14 +220,29 @@ std::string meter_csv(const MeterResult &result) {
   for (const MeterColumn &column : columns)
     header.emplace_back(column.header);
   header.insert(header.end(), {"mode", "stiffness"});
+  if (result.ends)
+    header.insert(header.end(), {"k_1_left_end [N/m]", "k_1_right_end [N/m]", "k_1_left_half [N/m]",
+                                 "k_1_right_half [N/m]", "c_1_left_half [N s/m]", "c_1_right_half [N s/m]"});
   std::string text = csv_line(header);
-  for (const MeterWindow &window : result.windows) {
+  for (std::size_t n = 0; n < result.windows.size(); ++n) {
+    const MeterWindow &window = result.windows[n];
     std::vector<std::string> cells;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const std::optional<double> value = columns[i].value(window);
       cells.push_back(value && std::isfinite(*value) && is_given(result, i) ? number_text(*value) : "");
     }
     cells.insert(cells.end(), {mode_name(window), stiffness_words(window)});
+    const auto add = [&cells, n](const auto &sides, std::optional<double> MeterWindow::*value) {
+      for (const std::vector<MeterWindow> &side : sides) {
+        const std::optional<double> found = n < side.size() ? side[n].*value : std::nullopt;
+        cells.push_back(found ? number_text(*found) : std::string());
+      }
+    };
+    if (result.ends) {
+      add(result.ends->at_end, &MeterWindow::k_1);
+      add(result.ends->halves, &MeterWindow::k_1);
+      add(result.ends->halves, &MeterWindow::c_1);
+    }
     text += csv_line(cells);
   }
   return text;
@@ -370,6 +385,9 @@ void write_meter_page(const std::filesystem::path &folder, const MeterResult &re
                           result.cycles.omega / (2.0 * pi), answer_line(result)));
   if (const std::string words = roller_words(result.record.parameters); !words.empty()) page.answer(words);
   page.answer(source_words(result));
+  if (result.ends)
+    for (const std::string &line : answer_lines(*result.ends, result.windows.back()))
+      page.answer(line);
   if (const std::string words = width_words(result); !words.empty()) page.answer(words);
   if (!stiffness_valid(last) && last.k_B && !just_touches(last))
     page.answer(
