@@ -66,6 +66,31 @@ std::optional<MotionFit> follow_both(const Record &record, const std::array<Half
   return best;
 }
 
+/// In unbroken contact a phase fits as well as another, up to that at which contact would just be lost. A fit
+/// that ends there takes its phase for well known. Where the ends of the interval in which the phase is known
+/// fit as well, the intervals contain what they give, too.
+void widen_by_phase(const Record &record, const std::array<HalfStart, 2> &contacts, double phase_within,
+                    MotionFit &motion) {
+  if (!(motion.phase.half_width < 0.5 * phase_within)) return;
+  const double as_good = (1.0 + 20.0 / static_cast<double>(record.size())) * motion.residual;
+  const std::vector<ContactFit> found = motion.contacts;
+  for (const double side : {-1.0, 1.0}) {
+    constexpr double held = 1e-4; // rad
+    Record other = record;
+    other.phase = *record.phase + side * phase_within;
+    const std::optional<MotionFit> fit = fit_motion(other, contacts, {held});
+    if (!fit || fit->residual > as_good) continue;
+    motion.phase.half_width =
+        std::max(motion.phase.half_width, std::fabs(fit->phase.mean - motion.phase.mean));
+    for (std::size_t half = 0; half < found.size(); ++half)
+      for (const auto value : {&ContactFit::k, &ContactFit::c}) {
+        MeanInterval &wider = motion.contacts[half].*value;
+        wider.half_width = std::max(wider.half_width,
+                                    std::fabs((fit->contacts[half].*value).mean - (found[half].*value).mean));
+      }
+  }
+}
+
 double rms(const std::vector<double> &values) {
   double squares = 0.0;
   for (const double value : values)
@@ -115,7 +140,8 @@ TwoSidedRecord identify_two_sided(const Record &record, const RecordSetting &set
   MotionSetting of_phase;
   if (record.phase_half_width == 0.0) of_phase.phase_within = phase_within;
   if (progress) progress("the motion from contact to contact");
-  const std::optional<MotionFit> motion = follow_both(record, contacts, of_phase);
+  std::optional<MotionFit> motion = follow_both(record, contacts, of_phase);
+  if (motion && of_phase.phase_within) widen_by_phase(record, contacts, *of_phase.phase_within, *motion);
   constexpr double close = 0.05, as_noise = 1e-4; // of the drum's acceleration
   const double left = motion ? motion->residual / rms(record.a_left) : 1.0;
   if (!motion || (!motion->is_noise && left > close))
