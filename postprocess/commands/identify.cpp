@@ -20,6 +20,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace drumlin::post {
 
@@ -153,6 +154,43 @@ std::optional<MachinePart> machine_part(const MachineTolerances &tolerances, con
   return part;
 }
 
+void make_parent_of(const fs::path &place, const Arguments &arguments) {
+  try {
+    make_output_folder(place.parent_path());
+  } catch (const std::runtime_error &error) {
+    throw UsageError(fmt::format("--out is '{}': {}", arguments.out, error.what()));
+  }
+}
+
+/// A record of both ends of the drum.
+void run_two_sided(const Arguments &arguments, const RecordSetting &setting, const fs::path &place,
+                   const Record &record) {
+  const char *const allowed = "not given for a record of both ends of the drum";
+  if (arguments.compare) throw UsageError(refusal("--compare", "", allowed));
+  for (const auto &[name, text] :
+       {std::pair{"--origin", arguments.origin}, std::pair{"--m2-tolerance", arguments.m2_tolerance},
+        std::pair{"--m3-tolerance", arguments.m3_tolerance},
+        std::pair{"--me-re-tolerance", arguments.me_re_tolerance},
+        std::pair{"--logger-low-pass", arguments.record.logger_low_pass}})
+    if (text) throw UsageError(refusal(name, *text, allowed));
+  TimedProgress progress;
+  const TwoSidedRecord found = identify_two_sided(
+      record, setting, [&progress](const std::string &what) { progress.tell("{}", what); });
+  make_parent_of(place, arguments);
+  FolderInProgress draft(place);
+  write_identification_page(draft.path(), found, roller_words(record.parameters));
+  write_files({{draft.path() / table_name, identification_csv(found)},
+               {draft.path() / "parameters.csv", settings_of(record)}});
+  draft.publish();
+  for (const std::string &line : record.notes)
+    fmt::print("{}\n", line);
+  fmt::print("{}: {:.4g} cycles at {:.4g} Hz, 95 % confidence intervals\n", found.file.string(), found.cycles,
+             found.frequency);
+  for (const std::string &line : identification_answer(found))
+    fmt::print("  {}\n", line);
+  fmt::print("{}\n", (fs::path(arguments.out) / "index.html").string());
+}
+
 void run(const Arguments &arguments) {
   RecordSetting setting = judge(arguments);
   const WayRange way = judged(arguments.way);
@@ -166,6 +204,10 @@ void run(const Arguments &arguments) {
     throw UsageError(refusal("--low-pass", fmt::format("{:g}", record.low_pass),
                              "no filter: it smooths the jump of each landing, which changes k and c; the fit "
                              "averages noise by itself"));
+  if (record.two_sided()) {
+    run_two_sided(arguments, setting, place, record);
+    return;
+  }
   if (arguments.compare) require_comparable(record);
   TimedProgress progress;
   IdentifiedRecord found =
@@ -176,11 +218,7 @@ void run(const Arguments &arguments) {
   found.machine = machine_part(tolerances, arguments.record, setting, way, record, found);
   std::optional<LumpedComparison> compared;
   if (arguments.compare) compared = compare_lumped(record, found);
-  try {
-    make_output_folder(place.parent_path());
-  } catch (const std::runtime_error &error) {
-    throw UsageError(fmt::format("--out is '{}': {}", arguments.out, error.what()));
-  }
+  make_parent_of(place, arguments);
   FolderInProgress draft(place);
   write_identification_page(draft.path(), found, compared ? &*compared : nullptr,
                             roller_words(record.parameters));

@@ -2,6 +2,7 @@
 
 #include "commands/commands.h"
 #include "commands/text_options.h"
+#include "map/ends_map.h"
 #include "map/figures.h"
 #include "map/meter/course.h"
 #include "map/regime_map.h"
@@ -53,6 +54,7 @@ struct Task {
   std::optional<LineContact> drum;
   int identify = 10; ///< every so many-th point of one axis
   int threads = 1;
+  std::optional<EndsFamily> ends; ///< a drum with two ends
   fs::path out;
 };
 
@@ -82,6 +84,38 @@ void judge_corner(const ChainArguments &arguments, const ChainParameters &parame
   }
 }
 
+/// The drum with two ends. Refuses one that cannot be solved at the corners of the axes.
+EndsFamily judge_contacts(const std::string &contacts, const Task &task) {
+  EndsFamily family;
+  family.chain = task.grid.chain;
+  family.contacts = count_option("--contacts", contacts, 2, most_contacts);
+  if (task.roller) {
+    family.roller = task.roller->machine;
+    if (!family.roller.width)
+      throw UsageError(fmt::format("width of '{}' is missing; allowed: the width of the drum, which "
+                                   "--contacts needs",
+                                   task.roller->file));
+  }
+  const auto judge_corner = [&](const std::vector<std::pair<std::string, double>> &values) {
+    const TwoEnds machine = family.at(values);
+    if (const std::string fault = machine.invalid(); !fault.empty())
+      throw UsageError(fault.rfind("contacts", 0) == 0 ? "--" + fault : fault);
+    DirectOptions options;
+    options.cycles = longest_transient * task.grid.cycles;
+    if (const std::string fault = too_much_work(machine, options); !fault.empty())
+      throw UsageError("--" + fault);
+  };
+  const MapGrid &grid = task.grid;
+  if (task.sweep)
+    for (const double value : {task.sweep->from, task.sweep->to})
+      judge_corner({{task.sweep->name, value}});
+  else
+    for (const double x : {grid.x.from, grid.x.to})
+      for (const double y : {grid.y.from, grid.y.to})
+        judge_corner({{grid.x.name, x}, {grid.y.name, y}});
+  return family;
+}
+
 Task judge(const MapArguments &arguments) {
   Task task;
   MapGrid &grid = task.grid;
@@ -97,12 +131,13 @@ Task judge(const MapArguments &arguments) {
     task.sweep = axis_option("--sweep", *arguments.sweep);
     axes = {{*task.sweep, "--sweep"}};
   } else {
-    grid.x = axis_option("--x", arguments.x.value_or("k:1e6:200e6:60:log"));
+    grid.x = axis_option("--x",
+                         arguments.x.value_or(arguments.contacts ? "k:5e6:100e6:39" : "k:1e6:200e6:60:log"));
     axes = {{grid.x, "--x"}};
-    task.along = arguments.x && !arguments.y;
+    task.along = arguments.x && !arguments.y && !arguments.contacts;
   }
   if (!task.sweep && !task.along) {
-    const std::string y = arguments.y.value_or("D:0.02:1:50");
+    const std::string y = arguments.y.value_or(arguments.contacts ? "ratio:1:4:25:log" : "D:0.02:1:50");
     grid.y = axis_option("--y", y);
     if (grid.x.parameter() == grid.y.parameter())
       throw UsageError(refusal("--y", y, "another NAME than that of --x"));
@@ -117,6 +152,8 @@ Task judge(const MapArguments &arguments) {
     if (const auto given = given_number(arguments.chain, axis.parameter()))
       throw UsageError(refusal(given->first, given->second,
                                fmt::format("not together with the axis {} of {}", axis.name, option)));
+    if (axis.name == ratio_name && !arguments.contacts)
+      throw UsageError(refusal(option, axis.name, "that of the halves of a drum only with --contacts"));
     if (axis.name == "Fw" && moment)
       throw UsageError(refusal(option, "Fw", "not together with me_re, from which Fw follows"));
     if (axis.name == "me_re" && arguments.me_re)
@@ -134,6 +171,7 @@ Task judge(const MapArguments &arguments) {
     for (const double x : {grid.x.from, grid.x.to})
       for (const double y : {grid.y.from, grid.y.to})
         judge_corner(arguments.chain, grid.at(x, y));
+  if (arguments.contacts) task.ends = judge_contacts(*arguments.contacts, task);
   constexpr int most_points = 1000000;
   if (arguments.identify) task.identify = count_option("--identify", *arguments.identify, 0, most_points);
   const auto along_only = [&task](const std::optional<std::string> &given, const char *option) {
@@ -185,6 +223,10 @@ std::string settings(const Task &task) {
     values.emplace_back("drum_radius", of_drum(&LineContact::radius));
     values.emplace_back("drum_width", of_drum(&LineContact::length));
     values.emplace_back("poisson", of_drum(&LineContact::poisson));
+  }
+  if (task.ends) {
+    values.emplace_back("contacts", fmt::format("{}", task.ends->contacts));
+    values.emplace_back("ends_assumed", fmt::format("{}", fmt::join(assumed_ends(task.ends->roller), " ")));
   }
   values.emplace_back("cycles", fmt::format("{}", grid.cycles));
   if (task.roller) {
@@ -273,12 +315,7 @@ void draw(const fs::path &out, const MapFigures &figures) {
 }
 
 // The page of a map: its pictures, and links to its tables.
-void write_page(const Task &task, const std::vector<Figure> &figures,
-                const std::array<std::size_t, regime_count> &counts) {
-  std::string motions;
-  for (std::size_t i = 0; i < regime_count; ++i)
-    if (counts[i] > 0)
-      motions += fmt::format("{}{} at {}", motions.empty() ? "" : ", ", regime_names[i], counts[i]);
+void write_page(const Task &task, const std::vector<Figure> &figures, const std::string &motions) {
   std::vector<Sentence> answer = {
       {fmt::format("The motion that the roller reaches from rest, over {} and {}: {} of {} points.",
                    task.grid.x.name, task.grid.y.name, motions, task.grid.size())}};
@@ -317,9 +354,13 @@ void run_map(const Task &task) {
   std::array<std::size_t, regime_count> counts{};
   for (const RegimePoint &point : points)
     ++counts[static_cast<std::size_t>(point.regime)];
-  for (std::size_t i = 0; i < regime_count; ++i)
-    if (counts[i] > 0) fmt::print("  {:<20}{:>7}\n", regime_names[i], counts[i]);
-  write_page(task, figures.figures, counts);
+  std::string motions;
+  for (std::size_t i = 0; i < regime_count; ++i) {
+    if (counts[i] == 0) continue;
+    fmt::print("  {:<20}{:>7}\n", regime_names[i], counts[i]);
+    motions += fmt::format("{}{} at {}", motions.empty() ? "" : ", ", regime_names[i], counts[i]);
+  }
+  write_page(task, figures.figures, motions);
 }
 
 /// What the meter shows along one axis.
@@ -359,6 +400,74 @@ void run_along(const Task &task) {
   fmt::print("{}: {} points\n", (task.out / page_name).string(), points.size());
 }
 
+std::string ends_header() {
+  return "regime,period [cycles],multiplier [-],exponent [1/cycle],tilt [rad],contact_left [-],contact_right "
+         "[-]\n";
+}
+
+std::string ends_cells(const EndsPoint &point) {
+  return fmt::format("{},{},{},{},{},{},{}\n", ends_mode_names[static_cast<std::size_t>(point.mode)],
+                     point.period, number_text(point.multiplier), number_text(point.exponent.mean),
+                     number_text(point.tilt), number_text(point.contact_share[0]),
+                     number_text(point.contact_share[1]));
+}
+
+/// What the drum with two ends does, in words.
+std::string ends_counts(const std::vector<EndsPoint> &points) {
+  std::string words;
+  for (std::size_t mode = 0; mode < ends_mode_count; ++mode) {
+    const auto count = std::count_if(points.begin(), points.end(), [mode](const EndsPoint &point) {
+      return static_cast<std::size_t>(point.mode) == mode;
+    });
+    if (count > 0)
+      words += fmt::format("{}{} at {}", words.empty() ? "" : ", ", ends_mode_names[mode], count);
+  }
+  return words;
+}
+
+void run_ends_map(const Task &task) {
+  const MapGrid &grid = task.grid;
+  TimedProgress progress;
+  const std::vector<EndsPoint> points = judge_map(*task.ends, grid, task.threads, [&](std::size_t done) {
+    progress.tell("{} of {} points", done, grid.size());
+  });
+  const std::vector<BoundaryPoint> boundaries = ends_boundaries(*task.ends, grid);
+  std::string rows = fmt::format("{},{},{}", grid.x.label(), grid.y.label(), ends_header());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    rows +=
+        fmt::format("{},{},{}", number_text(grid.x_of(i)), number_text(grid.y_of(i)), ends_cells(points[i]));
+  std::string text = fmt::format("kind,{},{}\n", grid.x.label(), grid.y.label());
+  for (const BoundaryPoint &point : boundaries)
+    text += fmt::format("{},{},{}\n", point.kind, number_text(point.x), number_text(point.y));
+  write_files({{task.out / points_name, rows}, {task.out / boundaries_name, text}});
+  const MapFigures figures = ends_figures(grid, points, boundaries);
+  draw(task.out, figures);
+  write_page(task, figures.figures, ends_counts(points));
+  fmt::print("{}: {} points on {} contacts: {}\n", task.out.string(), points.size(), task.ends->contacts,
+             ends_counts(points));
+}
+
+void run_ends_sweep(const Task &task) {
+  TimedProgress progress;
+  const std::vector<EndsSample> samples =
+      sweep_ends(*task.ends, *task.sweep, task.grid.cycles,
+                 [&](double share) { progress.tell("{:.0f} %", 100.0 * share); });
+  std::string rows = fmt::format("direction,{},{}", task.sweep->label(), ends_header());
+  std::vector<EndsPoint> points;
+  for (const EndsSample &sample : samples) {
+    rows += fmt::format("{},{},{}", sample.up ? "up" : "down", number_text(sample.value),
+                        ends_cells(sample.point));
+    points.push_back(sample.point);
+  }
+  int apart = 0;
+  for (std::size_t i = 0; i < samples.size() / 2; ++i)
+    if (samples[i].point.mode != samples[samples.size() - 1 - i].point.mode) ++apart;
+  write_files({{task.out / "sweep.csv", rows}});
+  draw(task.out, ends_sweep_figures(task.grid.chain, *task.sweep, samples));
+  fmt::print("{}: {} values, up and down, on {} contacts: {}; another motion downwards at {}\n",
+             task.out.string(), task.sweep->count, task.ends->contacts, ends_counts(points), apart);
+}
+
 void run_sweep(const Task &task) {
   constexpr int kept = 32;
   TimedProgress progress;
@@ -389,7 +498,13 @@ void print_map(const MapArguments &arguments) {
   if (task.roller)
     for (const std::string &line : task.roller->lines(task.grid.chain.base.g))
       fmt::print("{}\n", line);
-  if (task.sweep)
+  if (task.ends && !assumed_ends(task.ends->roller).empty())
+    fmt::print("Assumed, as of Axas2020: {}.\n", fmt::join(assumed_ends(task.ends->roller), ", "));
+  if (task.ends && task.sweep)
+    run_ends_sweep(task);
+  else if (task.ends)
+    run_ends_map(task);
+  else if (task.sweep)
     run_sweep(task);
   else if (task.along)
     run_along(task);
@@ -419,6 +534,14 @@ void add_map_command(CLI::App &app, Session & /*session*/) {
               "instead of a map: follow the motion along one axis up and down, once-per-cycle samples");
   text_option(map, "--me-re", "NUMBER", arguments->me_re,
               "eccentric moment m_e r_e [kg m]: Fw = m_e r_e omega^2 instead of a fixed Fw");
+  text_option(
+      map, "--contacts", "COUNT", arguments->contacts,
+      fmt::format(
+          "a drum with two ends on 2 to {} contacts along its width, which share k and D: whether its "
+          "ends lift off together or by turns; then a NAME of an axis may be ratio, of k and c "
+          "below the left half to those below the right one; without axes k:5e6:100e6:39 over "
+          "ratio:1:4:25:log",
+          most_contacts));
   text_option(map, "--cycles", "COUNT", arguments->cycles,
               "cycles of the excitation at each point, 100 or more");
   CLI::Option *threads =

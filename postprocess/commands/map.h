@@ -17,6 +17,7 @@ struct MapArguments {
   DrumArguments drum;                  ///< of one axis
   std::optional<std::string> sweep;
   std::optional<std::string> me_re;
+  std::optional<std::string> contacts; ///< of a drum with two ends
   std::string cycles = "300";
   std::string threads = "2";
   std::string out = "results/map";

@@ -155,6 +155,9 @@ void run(const Arguments &arguments) {
         std::min(task.options.window, static_cast<int>(result.cycles.cycles.size() / 2 * 2));
   if (task.window_seconds) task.options.window = cycles_in(*task.window_seconds, result.record.period());
   result.options = task.options;
+  if (task.window_metres && result.record.two_sided())
+    throw UsageError(refusal("--window", *arguments.window,
+                             "a number of cycles, or seconds as 2s, for a record of both ends of the drum"));
   result.windows = task.window_metres
                        ? windows_of_length(result.cycles, result.record, *task.window_metres, result.options)
                        : meter_windows(result.cycles, result.options);
@@ -162,6 +165,7 @@ void run(const Arguments &arguments) {
     result.options.window = static_cast<int>(
         std::lround((result.windows.back().end - result.windows.back().begin) / result.record.period()));
   add_places(result.windows, result.record);
+  result.ends = both_ends(result.record, result.options);
 
   for (const std::string &line : result.record.notes)
     fmt::print("{}\n", line);
@@ -169,6 +173,9 @@ void run(const Arguments &arguments) {
   for (const std::string &words : {width_words(result), smear_words(result)})
     if (!words.empty()) fmt::print("{}\n", words);
   print_windows(result);
+  if (result.ends)
+    for (const std::string &line : answer_lines(*result.ends, result.windows.back()))
+      fmt::print("{}\n", line);
   const fs::path place = fs::weakly_canonical(fs::absolute(task.out));
   make_output_folder(place.parent_path());
   FolderInProgress draft(place);

@@ -145,6 +145,20 @@ std::optional<KnownBond> bond_of(std::optional<double> k23, std::optional<double
   return bond;
 }
 
+/// How the roller tilts, if its file says it.
+std::optional<TwoEnds> ends_of(const GivenRoller &roller) {
+  const Roller &machine = roller.machine;
+  if (!machine.width || !machine.drum_inertia || !machine.frame_inertia) return std::nullopt;
+  ChainParameters chain;
+  chain.m2 = machine.m2;
+  chain.m3 = machine.m3;
+  chain.k23 = machine.k23;
+  chain.c23 = machine.c23;
+  TwoEnds ends = two_ends(chain, machine);
+  ends.contacts = equal_contacts(2, *machine.width, 0.0, 0.0);
+  return ends;
+}
+
 } // namespace
 
 void add_record_options(CLI::App &command, RecordArguments &arguments) {
@@ -155,12 +169,13 @@ void add_record_options(CLI::App &command, RecordArguments &arguments) {
           "continue one another")
       ->required();
   command
-      .add_option("--column", arguments.columns,
-                  "where a signal stands in a measured file, and in which unit: NAME=HEADER or "
-                  "NAME=HEADER:UNIT, where HEADER may be the column's number; NAME is "
-                  "time, x_drum, v_drum, a_drum (up positive), the same with frame, F_contact (compression "
-                  "positive) or "
-                  "F_excitation (down positive); a '-' before the unit turns the sign")
+      .add_option(
+          "--column", arguments.columns,
+          "where a signal stands in a measured file, and in which unit: NAME=HEADER or "
+          "NAME=HEADER:UNIT, where HEADER may be the column's number; NAME is "
+          "time, x_drum, v_drum, a_drum (up positive), the same with frame, a_left and a_right at both "
+          "ends of the drum, F_contact (compression positive) or "
+          "F_excitation (down positive); a '-' before the unit turns the sign")
       ->type_name("NAME=HEADER:UNIT")
       ->expected(1)
       ->take_all()
@@ -301,6 +316,7 @@ Record judged(const RecordArguments &arguments) {
     const double tolerance = 0.01 * number_option("--bond-tolerance", *arguments.bond_tolerance, range);
     if (options.bond) options.bond->tolerance = tolerance;
   }
+  if (roller) options.ends = ends_of(*roller);
   const std::optional<double> low_pass = std::exchange(options.low_pass, std::nullopt);
   Record record = read_record(paths, options);
   if (options.logger_filter && (record.pieces.empty() || !options.omega || record.excitation_read))

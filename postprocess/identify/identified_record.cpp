@@ -252,13 +252,14 @@ void take_motion(const MotionFit &motion, const Record &record, IdentifiedRecord
     const double off = motion.is_noise ? 0.0 : of_contacts.mean - of_motion.mean;
     return MeanInterval{of_motion.mean, std::hypot(of_motion.half_width, off)};
   };
-  law.k = taken(motion.k, law.k);
-  law.c = taken(motion.c, law.c);
+  const ContactFit &contact = motion.contacts.front();
+  law.k = taken(contact.k, law.k);
+  law.c = taken(contact.c, law.c);
   const double to_D = 1.0 / (2.0 * std::sqrt(*record.m2 * law.k.mean));
   const double of_k = 0.5 * law.c.mean / law.k.mean * law.k.half_width;
   law.D = {law.c.mean * to_D,
            to_D * std::sqrt(std::max(0.0, law.c.half_width * law.c.half_width + of_k * of_k -
-                                              2.0 * motion.correlation * of_k * law.c.half_width))};
+                                              2.0 * contact.correlation * of_k * law.c.half_width))};
   law.phase = {std::remainder(motion.phase.mean - *record.phase, 2.0 * pi), motion.phase.half_width};
   result.frequency = motion.omega.mean / (2.0 * pi);
   result.motion = motion;

@@ -1,5 +1,7 @@
 #include "identify/motion_fit.h"
 
+#include "record/both_ends.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
@@ -19,42 +21,130 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double pi = 3.14159265358979323846;
-constexpr Eigen::Index sensors = 2;
+// Contacts that act: bit j set, contact j does.
+using Set = unsigned;
 
-// A state: position and velocity of drum and frame, sine and cosine of the exciter's angle, and 1.
-constexpr Index of_sine = 4, of_cosine = 5, of_one = 6, size = 7;
-using State = Eigen::Matrix<double, size, 1>;
-using Square = Eigen::Matrix<double, size, size>;
+// Sums over the springs or dashpots of the bond of drum and frame, over that of themselves: of their places,
+// and of the squares of these.
+struct BondPlaces {
+  double first = 0.0, second = 0.0;
+};
 
-// Columns of derivatives: the first four by the state at the start of a stretch, the others by what all
-// stretches share.
-constexpr Index of_k = 4, of_c = 5, of_k23 = 6, of_c23 = 7, of_phase = 8, of_omega = 9, columns = 10;
-using Slopes = Eigen::Matrix<double, size, columns>;
-// Behind the derivatives that states have, an observation has those by offset and drift of each sensor.
-constexpr Index starts = 4, shared = columns - starts, unknowns = shared + 2 * sensors;
-using Shared = Eigen::Matrix<double, unknowns, 1>;
+// Samples from `first` to before `end` that one motion follows, and its state at the first.
+template <int starts>
+struct StretchOf {
+  std::size_t first, end;
+  Eigen::Matrix<double, starts, 1> start;
+  // Extension of the bond, without its static part, and the rate of that, as first found [m, m/s]; and of its
+  // turn [rad, rad/s].
+  Eigen::Vector2d bond{0.0, 0.0}, turn{0.0, 0.0};
+};
 
-// The mechanical model with the present values.
-struct Model {
+// The mechanical model with the present values: of a drum on one contact, or on one below each half, where
+// drum and frame tilt, too.
+template <int contact_count>
+struct ModelOf {
+  static constexpr int contacts = contact_count;
+  static constexpr bool tilts = contacts > 1;
+  static constexpr std::size_t sensors = contacts + 1; // the last one is that of the frame
+
+  // A state: position and velocity of drum and frame, the same of their tilts, sine and cosine of the
+  // exciter's angle, and 1.
+  static constexpr Index starts = tilts ? 8 : 4;
+  static constexpr Index of_sine = starts, of_cosine = starts + 1, of_one = starts + 2, size = starts + 3;
+  using State = Eigen::Matrix<double, size, 1>;
+  using Square = Eigen::Matrix<double, size, size>;
+  using Start = Eigen::Matrix<double, starts, 1>;
+  using Stretch = StretchOf<starts>;
+
+  // Columns of derivatives: the first by the state at the start of a stretch, the others by what all
+  // stretches share.
+  static constexpr Index of_k(Index contact) { return starts + 2 * contact; }
+  static constexpr Index of_c(Index contact) { return of_k(contact) + 1; }
+  static constexpr Index of_k23 = starts + 2 * contacts, of_c23 = of_k23 + 1, of_phase = of_k23 + 2,
+                         of_omega = of_k23 + 3, columns = of_k23 + 4;
+  using Slopes = Eigen::Matrix<double, size, columns>;
+  // Behind the derivatives that states have, an observation has those by offset and drift of each sensor.
+  static constexpr Index shared = columns - starts, unknowns = shared + 2 * static_cast<Index>(sensors);
+  using Shared = Eigen::Matrix<double, unknowns, 1>;
+
   double m2, m3, g, me_re;
-  double k, c, k23, c23, omega, phase; // phase at time 0
+  std::array<double, contacts> k, c;
+  double k23, c23, omega, phase; // phase at time 0
   std::array<double, sensors> offset{}, drift{};
   bool pulls = false;
+  // Of a drum that tilts: inertia of drum and frame, places of contacts, exciter and sensors, bond.
+  double I2 = 0.0, I3 = 0.0;
+  std::array<double, contacts> place{}, sensor{};
+  double exciter = 0.0;
+  BondPlaces spring{}, dashpot{};
 
   double Fw() const { return me_re * omega * omega; } // amplitude of the exciter's force [N]
 
+  // Rows of the drum's position and velocity at a contact.
+  template <class Matrix>
+  auto position(const Matrix &y, std::size_t contact) const {
+    if constexpr (tilts)
+      return (y.row(0) + place[contact] * y.row(4)).eval();
+    else
+      return y.row(0).eval();
+  }
+  template <class Matrix>
+  auto velocity(const Matrix &y, std::size_t contact) const {
+    if constexpr (tilts)
+      return (y.row(1) + place[contact] * y.row(5)).eval();
+    else
+      return y.row(1).eval();
+  }
+  // The acceleration that a sensor feels, from the rate of a state.
+  template <class Matrix>
+  auto felt(const Matrix &rate, std::size_t at) const {
+    if constexpr (tilts) {
+      if (at + 1 < sensors) return (rate.row(1) + sensor[at] * rate.row(5)).eval();
+      return rate.row(3).eval();
+    } else {
+      return rate.row(1 + 2 * static_cast<Index>(at)).eval();
+    }
+  }
+
   // What has to be positive in contact, for the position of the drum alone and for the force [m].
-  double overlap(const State &y) const { return -y[0]; }
-  double pressed(const State &y) const { return -y[0] - c / k * y[1]; }
-  double indicator(const State &y) const { return pulls ? overlap(y) : std::min(overlap(y), pressed(y)); }
+  double overlap(const State &y, std::size_t contact) const { return -position(y, contact)(0); }
+  double pressed(const State &y, std::size_t contact) const {
+    return -position(y, contact)(0) - c[contact] / k[contact] * velocity(y, contact)(0);
+  }
+  double indicator(const State &y, std::size_t contact) const {
+    return pulls ? overlap(y, contact) : std::min(overlap(y, contact), pressed(y, contact));
+  }
+  Set acting(const State &y) const {
+    Set set = 0;
+    for (std::size_t contact = 0; contact < contacts; ++contact)
+      if (indicator(y, contact) > 0.0) set |= 1U << contact;
+    return set;
+  }
 
   template <class Matrix>
-  Matrix rate(const Matrix &y, bool contact) const {
+  Matrix rate(const Matrix &y, Set acting) const {
     Matrix d;
-    const auto bond = (k23 * (y.row(0) - y.row(2)) + c23 * (y.row(1) - y.row(3))).eval();
+    auto bond = (k23 * (y.row(0) - y.row(2)) + c23 * (y.row(1) - y.row(3))).eval();
+    if constexpr (tilts) {
+      const auto turn = (y.row(4) - y.row(6)).eval(), turning = (y.row(5) - y.row(7)).eval();
+      bond += k23 * spring.first * turn + c23 * dashpot.first * turning;
+      const auto moment = (k23 * (spring.first * (y.row(0) - y.row(2)) + spring.second * turn) +
+                           c23 * (dashpot.first * (y.row(1) - y.row(3)) + dashpot.second * turning))
+                              .eval();
+      d.row(4) = y.row(5);
+      d.row(5) = (-moment - exciter * Fw() * y.row(of_sine)) / I2;
+      d.row(6) = y.row(7);
+      d.row(7) = moment / I3;
+    }
     d.row(0) = y.row(1);
     d.row(1) = (-bond - Fw() * y.row(of_sine)) / m2 - g * y.row(of_one);
-    if (contact) d.row(1) -= (k * y.row(0) + c * y.row(1)) / m2;
+    for (std::size_t j = 0; j < contacts; ++j) {
+      if (((acting >> j) & 1U) == 0) continue;
+      const auto force = (k[j] * position(y, j) + c[j] * velocity(y, j)).eval();
+      d.row(1) -= force / m2;
+      if constexpr (tilts) d.row(5) -= place[j] / I2 * force;
+    }
     d.row(2) = y.row(3);
     d.row(3) = bond / m3 - g * y.row(of_one);
     d.row(of_sine) = omega * y.row(of_cosine);
@@ -63,12 +153,31 @@ struct Model {
     return d;
   }
   // Adds the change of the rate by the change of each parameter.
-  void add_sources(const State &y, bool contact, double factor, Slopes &s) const {
-    if (contact) {
-      s(1, of_k) -= factor * y[0] / m2;
-      s(1, of_c) -= factor * y[1] / m2;
+  void add_sources(const State &y, Set acting, double factor, Slopes &s) const {
+    for (std::size_t j = 0; j < contacts; ++j) {
+      if (((acting >> j) & 1U) == 0) continue;
+      const auto of = static_cast<Index>(j);
+      const double by_k = factor * position(y, j)(0), by_c = factor * velocity(y, j)(0);
+      s(1, of_k(of)) -= by_k / m2;
+      s(1, of_c(of)) -= by_c / m2;
+      if constexpr (tilts) {
+        s(5, of_k(of)) -= place[j] / I2 * by_k;
+        s(5, of_c(of)) -= place[j] / I2 * by_c;
+      }
     }
-    const double stretch = factor * (y[0] - y[2]), speed = factor * (y[1] - y[3]);
+    double stretch = factor * (y[0] - y[2]), speed = factor * (y[1] - y[3]);
+    if constexpr (tilts) {
+      const double turn = factor * (y[4] - y[6]), turning = factor * (y[5] - y[7]);
+      const double of_spring = spring.first * stretch + spring.second * turn;
+      const double of_dashpot = dashpot.first * speed + dashpot.second * turning;
+      s(5, of_k23) -= of_spring / I2;
+      s(7, of_k23) += of_spring / I3;
+      s(5, of_c23) -= of_dashpot / I2;
+      s(7, of_c23) += of_dashpot / I3;
+      s(5, of_omega) -= factor * exciter * 2.0 * me_re * omega * y[of_sine] / I2;
+      stretch += spring.first * turn;
+      speed += dashpot.first * turning;
+    }
     s(1, of_k23) -= stretch / m2;
     s(3, of_k23) += stretch / m3;
     s(1, of_c23) -= speed / m2;
@@ -79,13 +188,14 @@ struct Model {
   }
 };
 
-// The logger's filter for both accelerations: sections one behind another, each with its output and, of
+// The logger's filter for all accelerations: sections one behind another, each with its output and, of
 // second order, the rate of that, all rates over the corner's angular frequency.
 struct Filter {
   double corner = 0.0;         // [rad/s]; 0: no filter
   std::vector<double> damping; // of the sections of second order
   bool odd = false;            // a section of first order comes last
   std::size_t warm = 0;        // samples after which it has forgotten with what it began
+  Index sensors = 2;
 
   explicit operator bool() const { return corner > 0.0; }
   Index order() const { return 2 * static_cast<Index>(damping.size()) + (odd ? 1 : 0); }
@@ -112,11 +222,11 @@ struct Filter {
     }
     return d;
   }
-  // Adds the accelerations that come in, a times the rows of speeds.
-  template <class Matrix>
-  void add_input(const Matrix &rates, double factor, MatrixXd &d) const {
+  // Adds the accelerations that come in, from the rates of states.
+  template <class Model, class Matrix>
+  void add_input(const Model &model, const Matrix &rates, MatrixXd &d) const {
     for (Index sensor = 0; sensor < sensors; ++sensor)
-      d.row(input(sensor)) += factor * corner * rates.row(1 + 2 * sensor);
+      d.row(input(sensor)) += corner * model.felt(rates, static_cast<std::size_t>(sensor));
   }
 };
 
@@ -128,7 +238,9 @@ struct Filtered {
 
 // The state after a time, by the series of the exponential, with derivatives if they are asked for, and with
 // the filter's states if there are any.
-void advance(const Model &model, bool contact, double h, State &y, Slopes *s, Filtered *z = nullptr) {
+template <class Model>
+void advance(const Model &model, Set acting, double h, typename Model::State &y, typename Model::Slopes *s,
+             Filtered *z = nullptr) {
   constexpr int most_terms = 40;
   MatrixXd z_term, z_slopes;
   if (z != nullptr) {
@@ -136,27 +248,27 @@ void advance(const Model &model, bool contact, double h, State &y, Slopes *s, Fi
     z_slopes = z->slopes;
   }
   constexpr double small = 1e-17;
-  State term = y;
-  Slopes slopes;
+  typename Model::State term = y;
+  typename Model::Slopes slopes;
   if (s != nullptr) slopes = *s;
   for (int n = 1; n <= most_terms; ++n) {
     const double factor = h / n;
     if (s != nullptr) {
-      Slopes next = factor * model.rate(slopes, contact);
-      model.add_sources(term, contact, factor, next);
+      typename Model::Slopes next = factor * model.rate(slopes, acting);
+      model.add_sources(term, acting, factor, next);
       slopes = next;
       *s += slopes;
       if (z != nullptr) {
         z_slopes = (factor * z->filter->rate(z_slopes)).eval();
-        z->filter->add_input(slopes, 1.0, z_slopes);
+        z->filter->add_input(model, slopes, z_slopes);
         z->slopes += z_slopes;
       }
     }
-    term = (factor * model.rate(term, contact)).eval();
+    term = (factor * model.rate(term, acting)).eval();
     y += term;
     if (z != nullptr) {
       z_term = (factor * z->filter->rate(z_term)).eval();
-      z->filter->add_input(term, 1.0, z_term);
+      z->filter->add_input(model, term, z_term);
       z->value += z_term;
       if (n < most_terms && (z_term.cwiseAbs().maxCoeff() > 1e-13 * z->value.cwiseAbs().maxCoeff())) continue;
     }
@@ -168,10 +280,13 @@ void advance(const Model &model, bool contact, double h, State &y, Slopes *s, Fi
 }
 
 // A step of fixed length, computed once: the exponential and its derivatives by the parameters.
+template <class Model>
 class Step {
 public:
+  using State = typename Model::State;
+  using Slopes = typename Model::Slopes;
   Step() = default;
-  Step(const Model &model, bool contact, double h, const Filter &filter) {
+  Step(const Model &model, Set acting, double h, const Filter &filter) {
     if (filter) {
       const Index states = filter.states();
       of_filter_.resize(states, states);
@@ -179,7 +294,7 @@ public:
         State none = State::Zero();
         Filtered z{&filter, MatrixXd::Zero(states, 1), {}};
         z.value(i, 0) = 1.0;
-        advance(model, contact, h, none, nullptr, &z);
+        advance(model, acting, h, none, nullptr, &z);
         of_filter_.col(i) = z.value;
       }
       into_filter_.resize(states, size);
@@ -188,7 +303,7 @@ public:
         State column = State::Unit(i);
         Slopes slopes = Slopes::Zero();
         Filtered z{&filter, MatrixXd::Zero(states, 1), MatrixXd::Zero(states, columns)};
-        advance(model, contact, h, column, &slopes, &z);
+        advance(model, acting, h, column, &slopes, &z);
         into_filter_.col(i) = z.value;
         for (Index p = 0; p < of_parameters; ++p)
           into_filter_by_[static_cast<std::size_t>(p)].col(i) = z.slopes.col(parameter(p));
@@ -197,7 +312,7 @@ public:
     for (Index i = 0; i < size; ++i) {
       State column = State::Unit(i);
       Slopes slopes = Slopes::Zero();
-      advance(model, contact, h, column, &slopes);
+      advance(model, acting, h, column, &slopes);
       all_.col(i) = column;
       for (Index p = 0; p < of_parameters; ++p)
         by_[static_cast<std::size_t>(p)].col(i) = slopes.col(parameter(p));
@@ -214,30 +329,39 @@ public:
   }
   void move(const State &before, Slopes &s) const {
     // The exciter's angle depends on phase and frequency alone.
-    s.topRows<of_sine>() = (all_.topLeftCorner<of_sine, of_sine>() * s.topRows<of_sine>()).eval();
-    s.block<of_sine, 2>(0, of_phase) += all_.block<of_sine, 2>(0, of_sine) * s.block<2, 2>(of_sine, of_phase);
-    s.block<2, 2>(of_sine, of_phase) =
-        (all_.block<2, 2>(of_sine, of_sine) * s.block<2, 2>(of_sine, of_phase)).eval();
+    auto motion = s.template topRows<of_sine>();
+    auto angle = s.template block<2, 2>(of_sine, of_phase);
+    motion = (all_.template topLeftCorner<of_sine, of_sine>() * motion).eval();
+    s.template block<of_sine, 2>(0, of_phase) += all_.template block<of_sine, 2>(0, of_sine) * angle;
+    angle = (all_.template block<2, 2>(of_sine, of_sine) * angle).eval();
     for (Index p = 0; p < of_parameters; ++p)
       s.col(parameter(p)) += by_[static_cast<std::size_t>(p)] * before;
   }
 
 private:
-  static constexpr Index of_parameters = 5;
-  static Index parameter(Index p) { return p < 4 ? of_k + p : of_omega; }
-  Square all_;
-  std::array<Square, of_parameters> by_;
+  static constexpr Index size = Model::size, columns = Model::columns, of_sine = Model::of_sine,
+                         of_phase = Model::of_phase;
+  // All but the phase: stiffness and damping of contacts and bond, and the frequency.
+  static constexpr Index of_parameters = Model::shared - 1;
+  static Index parameter(Index p) {
+    return p + 1 < of_parameters ? Model::starts + p : Index(Model::of_omega);
+  }
+  typename Model::Square all_;
+  std::array<typename Model::Square, of_parameters> by_;
   MatrixXd of_filter_, into_filter_;
   std::vector<MatrixXd> into_filter_by_;
 };
 
-// The time until contact begins or ends, which it does within h, by the secant in a shrinking bracket.
-double event_within(const Model &model, bool contact, double h, const State &y) {
+// The time until a contact begins or ends, which it does within h, by the secant in a shrinking bracket.
+template <class Model>
+double event_within(const Model &model, std::size_t contact, Set acting, double h,
+                    const typename Model::State &y) {
+  const bool acts = ((acting >> contact) & 1U) != 0;
   double before = 0.0, after = h;
   const auto at = [&](double time) {
-    State there = y;
-    advance(model, contact, time, there, nullptr);
-    return model.indicator(there) * (contact ? 1.0 : -1.0); // negative behind the event
+    typename Model::State there = y;
+    advance(model, acting, time, there, nullptr);
+    return model.indicator(there, contact) * (acts ? 1.0 : -1.0); // negative behind the event
   };
   double of_before = std::max(0.0, at(before)), of_after = at(after);
   constexpr int most_rounds = 60;
@@ -260,56 +384,65 @@ double event_within(const Model &model, bool contact, double h, const State &y) 
 }
 
 // What a small change of the state or of a parameter does behind an event, which it delays.
-void pass_event(const Model &model, bool contact, const State &y, Slopes &s, Filtered *z) {
-  const State before = model.rate(y, contact), after = model.rate(y, !contact);
-  const bool of_force = !model.pulls && model.pressed(y) < model.overlap(y);
-  const double of_v = of_force ? model.c / model.k : 0.0;
-  const double speed = before[0] + of_v * before[1];
+template <class Model>
+void pass_event(const Model &model, std::size_t contact, Set acting, const typename Model::State &y,
+                typename Model::Slopes &s, Filtered *z) {
+  const typename Model::State before = model.rate(y, acting), after = model.rate(y, acting ^ (1U << contact));
+  const bool of_force = !model.pulls && model.pressed(y, contact) < model.overlap(y, contact);
+  const double of_v = of_force ? model.c[contact] / model.k[contact] : 0.0;
+  const double speed = model.position(before, contact)(0) + of_v * model.velocity(before, contact)(0);
   if (speed == 0.0) return;
-  Eigen::Matrix<double, 1, columns> change = s.row(0) + of_v * s.row(1);
+  auto change = (model.position(s, contact) + of_v * model.velocity(s, contact)).eval();
   if (of_force) {
-    change[of_k] -= model.c / (model.k * model.k) * y[1];
-    change[of_c] += y[1] / model.k;
+    const double k = model.k[contact], v = model.velocity(y, contact)(0);
+    change[Model::of_k(static_cast<Index>(contact))] -= model.c[contact] / (k * k) * v;
+    change[Model::of_c(static_cast<Index>(contact))] += v / k;
   }
   s -= (before - after) * (change / speed);
   if (z != nullptr) {
     MatrixXd jump = MatrixXd::Zero(z->value.rows(), 1);
-    z->filter->add_input(before - after, 1.0, jump);
+    z->filter->add_input(model, (before - after).eval(), jump);
     z->slopes -= jump * (change / speed);
   }
 }
-
-// Samples from `first` to before `end` that one motion follows, and its state at the first.
-struct Stretch {
-  std::size_t first, end;
-  Eigen::Vector4d start;
-  // Extension of the bond, without its static part, and the rate of that, as first found [m, m/s].
-  Eigen::Vector2d bond{0.0, 0.0};
-};
 
 // What is known of the bond and of its extension, as weights; 0: nothing.
 struct BondKnowledge {
   double stiffness = 0.0, damping = 0.0;       // said
   double of_stiffness = 0.0, of_damping = 0.0; // weights of these
   double of_extension = 0.0, of_rate = 0.0;    // weights of what a stretch starts with
+  double of_turn = 0.0, of_turning = 0.0;      // and of how the frame is tilted against the drum there
+  template <class Model>
   double off(const Model &model) const {
     return of_stiffness * std::pow(model.k23 - stiffness, 2) + of_damping * std::pow(model.c23 - damping, 2);
   }
   // By how much a stretch starts with another extension, or rate of it, than was first found; the static part
   // of the extension goes with the present stiffness.
-  static double extension_off(const Model &model, const Stretch &stretch) {
+  template <class Model>
+  static double extension_off(const Model &model, const typename Model::Stretch &stretch) {
     return stretch.start[0] - stretch.start[2] - stretch.bond[0] - model.m3 * model.g / model.k23;
   }
+  template <class Stretch>
   static double rate_off(const Stretch &stretch) {
     return stretch.start[1] - stretch.start[3] - stretch.bond[1];
   }
-  double off(const Model &model, const Stretch &stretch) const {
-    return of_extension * std::pow(extension_off(model, stretch), 2) +
-           of_rate * std::pow(rate_off(stretch), 2);
+  // The same of the turn and its rate, which have no static part.
+  template <class Stretch>
+  static double turn_off(const Stretch &stretch, Index of_rate) {
+    return stretch.start[4 + of_rate] - stretch.start[6 + of_rate] - stretch.turn[of_rate];
+  }
+  template <class Model>
+  double off(const Model &model, const typename Model::Stretch &stretch) const {
+    double sum =
+        of_extension * std::pow(extension_off(model, stretch), 2) + of_rate * std::pow(rate_off(stretch), 2);
+    if constexpr (Model::tilts)
+      sum += of_turn * std::pow(turn_off(stretch, 0), 2) + of_turning * std::pow(turn_off(stretch, 1), 2);
+    return sum;
   }
 };
 
 // So many stretches to one each.
+template <class Stretch>
 std::vector<Stretch> joined(const std::vector<Stretch> &stretches, std::size_t together) {
   std::vector<Stretch> result;
   for (std::size_t i = 0; i < stretches.size(); i += together) {
@@ -319,40 +452,32 @@ std::vector<Stretch> joined(const std::vector<Stretch> &stretches, std::size_t t
   return result;
 }
 
-// Normal equations of a stretch: of its start, and what it adds to those of the shared unknowns.
-struct Equations {
-  Eigen::Matrix4d own = Eigen::Matrix4d::Zero();
-  Eigen::Matrix<double, starts, unknowns> mixed = Eigen::Matrix<double, starts, unknowns>::Zero();
-  Eigen::Vector4d own_right = Eigen::Vector4d::Zero();
-};
-
 struct Signals {
-  std::array<const std::vector<double> *, sensors> a{};
+  std::vector<const std::vector<double> *> a; // of the drum's sensors, then of the frame's if it has one
   double dt = 0.0, start = 0.0, middle = 0.0, half_length = 0.0;
   double per_cycle = 0.0;
   const std::vector<double> *wander = nullptr; // of the exciter's angle
   std::vector<double> force_share;             // of the exciter's force, if its angle wanders
   Filter filter;
-  std::vector<double> drum, frame; // accelerations to start with
-  std::size_t measured() const { return a[1]->empty() ? 1 : 2; }
+  std::vector<double> drum, frame;           // accelerations to start with
+  std::vector<double> turn_drum, turn_frame; // of the tilts [rad/s2]
+  std::size_t measured() const { return a.size() - (a.back() == nullptr ? 1 : 0); }
   double wander_at(std::size_t i) const { return wander->empty() ? 0.0 : (*wander)[i]; }
   std::size_t size() const { return a[0]->size(); }
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
 };
 
-// Derivatives of an observation by the shared unknowns.
-template <class Row>
-Shared observed(const Row &row, std::size_t sensor, double u) {
-  Shared all = Shared::Zero();
-  all.head<shared>() = row.template tail<shared>().transpose();
-  const auto at = static_cast<Index>(shared + 2 * sensor);
-  all[at] = 1.0;
-  all[at + 1] = u;
-  return all;
-}
-
+template <class Model>
 class Fit {
 public:
+  using State = typename Model::State;
+  using Slopes = typename Model::Slopes;
+  using Stretch = typename Model::Stretch;
+  using Shared = typename Model::Shared;
+  static constexpr Index starts = Model::starts, unknowns = Model::unknowns, columns = Model::columns,
+                         shared = Model::shared;
+  static constexpr std::size_t sensors = Model::sensors;
+
   Fit(const Signals &signals, Model model, std::vector<Stretch> stretches, double phase_weight,
       double phase_said, const BondKnowledge &bond)
       : signals_(&signals), model_(model), stretches_(std::move(stretches)), phase_weight_(phase_weight),
@@ -381,19 +506,38 @@ public:
   double tension() const;
 
 private:
+  // Normal equations of a stretch: of its start, and what it adds to those of the shared unknowns.
+  struct Equations {
+    Eigen::Matrix<double, starts, starts> own;
+    Eigen::Matrix<double, starts, unknowns> mixed;
+    typename Model::Start own_right;
+  };
+  // Derivatives of an observation by the shared unknowns.
+  template <class Row>
+  static Shared observed(const Row &row, std::size_t sensor, double u) {
+    Shared all = Shared::Zero();
+    all.template head<shared>() = row.template tail<shared>().transpose();
+    const auto at = static_cast<Index>(shared + 2 * sensor);
+    all[at] = 1.0;
+    all[at + 1] = u;
+    return all;
+  }
   // Calls `use` for each sample with its residuals and derivatives; false if the motion cannot be followed.
   // A model with its steps between samples.
   struct Motion {
     Motion(const Signals &signals, const Model &of) : model(of) {
-      const double fine = std::max(64.0 * of.omega / (2.0 * pi), 1.5 * std::sqrt(of.k / of.m2));
+      double fine = 64.0 * of.omega / (2.0 * pi);
+      for (std::size_t j = 0; j < Model::contacts; ++j)
+        fine = std::max(fine, 1.5 * std::sqrt(of.k[j] / of.m2));
       steps = static_cast<int>(std::ceil(signals.dt * fine));
       h = signals.dt / steps;
-      step = {Step(model, false, h, signals.filter), Step(model, true, h, signals.filter)};
+      for (Set acting = 0; acting < step.size(); ++acting)
+        step[acting] = Step<Model>(model, acting, h, signals.filter);
     }
     Model model;
     int steps;
     double h;
-    std::array<Step, 2> step;
+    std::array<Step<Model>, 1U << Model::contacts> step;
   };
   struct Nothing {
     void operator()(const State & /*state*/) const {}
@@ -401,6 +545,11 @@ private:
   template <class Use, class See = Nothing>
   bool follow(const Motion &motion, const Stretch &stretch, bool slopes_too, const Use &use,
               const See &see = {}) const;
+  static std::array<double, sensors> ones() {
+    std::array<double, sensors> values;
+    values.fill(1.0);
+    return values;
+  }
   bool equations();
   // The sum of weighted squares of a trial; nothing if it cannot be followed.
   std::optional<double> cost(const Model &model, const std::vector<Stretch> &stretches);
@@ -415,21 +564,24 @@ private:
   std::vector<Equations> of_stretch_;
   Eigen::Matrix<double, unknowns, unknowns> normal_;
   Shared right_;
-  std::array<double, sensors> level_{1.0, 1.0}, squares_{};
+  std::array<double, sensors> level_ = ones(), squares_{};
   double cost_ = 0.0;
   std::size_t samples_ = 0;
 };
 
+template <class Model>
 template <class Use, class See>
-bool Fit::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, const Use &use,
-                 const See &see) const {
+bool Fit<Model>::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, const Use &use,
+                        const See &see) const {
   const Model &model = motion.model;
-  const std::array<Step, 2> &step = motion.step;
+  const auto &step = motion.step;
+  constexpr Index of_sine = Model::of_sine, of_cosine = Model::of_cosine, of_phase = Model::of_phase,
+                  of_omega = Model::of_omega;
   const double h = motion.h;
   State y;
   y << stretch.start, 0.0, 0.0, 1.0;
   Slopes s = Slopes::Zero();
-  s.topLeftCorner<starts, starts>().setIdentity();
+  s.template topLeftCorner<starts, starts>().setIdentity();
   const auto turn_to = [&](std::size_t i, double angle) {
     const double time = signals_->time(i), share = signals_->wander->empty() ? 1.0 : signals_->force_share[i];
     y[of_sine] = share * std::sin(angle);
@@ -443,9 +595,9 @@ bool Fit::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, 
     return model.phase + model.omega * signals_->time(i) + signals_->wander_at(i);
   };
   turn_to(stretch.first, angle_at(stretch.first));
-  bool contact = model.indicator(y) > 0.0;
+  Set acting = model.acting(y);
   std::size_t events = 0;
-  bool changed = false; // between the sample before and this one
+  Set changed = 0; // between the sample before and this one
   const auto u_of = [this](std::size_t i) {
     return (signals_->time(i) - signals_->middle) / signals_->half_length;
   };
@@ -457,11 +609,11 @@ bool Fit::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, 
   if (filter) { // as if the accelerations had been these for long
     z.value = MatrixXd::Zero(filter.states(), 1);
     z.slopes = MatrixXd::Zero(filter.states(), columns);
-    const State rate = model.rate(y, contact);
-    for (Index sensor = 0; sensor < sensors; ++sensor) {
+    const State rate = model.rate(y, acting);
+    for (Index sensor = 0; sensor < filter.sensors; ++sensor) {
       const Index first = sensor * filter.order();
       for (Index at = first; at < first + filter.order(); at += 2)
-        z.value(at, 0) = rate[1 + 2 * sensor];
+        z.value(at, 0) = model.felt(rate, static_cast<std::size_t>(sensor))(0);
     }
   }
   const std::size_t end = std::min(stretch.end + filter.warm, signals_->size());
@@ -470,11 +622,11 @@ bool Fit::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, 
     const State here = y;
     see(here);
     const Slopes slopes = s;
-    const bool touches = contact;
-    const std::size_t events_before = events;
+    const Set touches = acting;
+    Set turned = 0; // between this sample and the next one
     if (filter && i >= stretch.first + filter.warm)
       for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
-        if (signals_->a[sensor]->empty()) continue;
+        if (signals_->a[sensor] == nullptr) continue;
         const Index out = filter.output(static_cast<Index>(sensor));
         const double u = u_of(i);
         const Eigen::Matrix<double, 1, columns> row = z.slopes.row(out);
@@ -487,22 +639,31 @@ bool Fit::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, 
       turn_to(i, angle_at(i) + 0.5 * (signals_->wander_at(i + 1) - signals_->wander_at(i)));
     for (int j = 0; j < motion.steps; ++j) {
       double left = h;
-      State next = step[contact ? 1 : 0].moved(y);
-      while ((model.indicator(next) > 0.0) != contact) {
+      State next = step[acting].moved(y);
+      for (Set crossed = model.acting(next) ^ acting; crossed != 0; crossed = model.acting(next) ^ acting) {
         if (++events > most_events) return false;
-        const double after = event_within(model, contact, left, y);
-        advance(model, contact, after, y, slopes_too ? &s : nullptr, behind);
-        if (slopes_too) pass_event(model, contact, y, s, behind);
-        contact = !contact;
+        double after = left;
+        std::size_t first = 0;
+        for (std::size_t contact = 0; contact < Model::contacts; ++contact) {
+          if (((crossed >> contact) & 1U) == 0) continue;
+          const double time = event_within(model, contact, acting, left, y);
+          if (time > after) continue;
+          after = time;
+          first = contact;
+        }
+        advance(model, acting, after, y, slopes_too ? &s : nullptr, behind);
+        if (slopes_too) pass_event(model, first, acting, y, s, behind);
+        acting ^= 1U << first;
+        turned |= 1U << first;
         left -= after;
         next = y;
-        advance(model, contact, left, next, nullptr);
+        advance(model, acting, left, next, nullptr);
       }
-      if (filter && left == h) step[contact ? 1 : 0].move_filter(y, slopes_too ? &s : nullptr, z);
-      if (slopes_too && left == h) step[contact ? 1 : 0].move(y, s);
+      if (filter && left == h) step[acting].move_filter(y, slopes_too ? &s : nullptr, z);
+      if (slopes_too && left == h) step[acting].move(y, s);
       if ((slopes_too || filter) && left < h) {
         next = y;
-        advance(model, contact, left, next, slopes_too ? &s : nullptr, behind);
+        advance(model, acting, left, next, slopes_too ? &s : nullptr, behind);
       }
       y = next;
     }
@@ -510,14 +671,28 @@ bool Fit::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, 
     if (filter) continue;
     // Next to an event a sample is taken for that side of it which is nearer: else the acceleration's jump
     // would hold the event between two samples while the parameters still change.
-    const bool next_to_event = events > events_before || changed;
-    changed = events > events_before;
-    const auto at = [&](bool in_contact) {
-      const double rate = model.rate(here, in_contact)[1];
-      return rate + model.offset[0] + model.drift[0] * u_of(i) - (*signals_->a[0])[i];
+    const Set near = turned | changed;
+    changed = turned;
+    const auto left_with = [&](Set set) {
+      const State rate = model.rate(here, set);
+      double squares = 0.0;
+      for (std::size_t sensor = 0; sensor + 1 < sensors; ++sensor)
+        squares += std::pow(model.felt(rate, sensor)(0) + model.offset[sensor] +
+                                model.drift[sensor] * u_of(i) - (*signals_->a[sensor])[i],
+                            2);
+      return squares;
     };
-    const bool other = next_to_event && std::fabs(at(!touches)) < std::fabs(at(touches));
-    const bool side = other ? !touches : touches;
+    Set side = touches;
+    if (near != 0) {
+      double least = left_with(touches);
+      for (Set flipped = 1; flipped <= near; ++flipped) {
+        if ((flipped & near) != flipped) continue;
+        const double squares = left_with(touches ^ flipped);
+        if (!(squares < least)) continue;
+        least = squares;
+        side = touches ^ flipped;
+      }
+    }
     const State rate = model.rate(here, side);
     Slopes change;
     if (slopes_too) {
@@ -525,18 +700,20 @@ bool Fit::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, 
       model.add_sources(here, side, 1.0, change);
     }
     for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
-      if (signals_->a[sensor]->empty()) continue;
-      const auto row = static_cast<Index>(1 + 2 * sensor);
+      if (signals_->a[sensor] == nullptr) continue;
       const double u = u_of(i);
-      use(i, sensor, rate[row] + model.offset[sensor] + model.drift[sensor] * u - (*signals_->a[sensor])[i],
-          change.row(row), u);
+      use(i, sensor,
+          model.felt(rate, sensor)(0) + model.offset[sensor] + model.drift[sensor] * u -
+              (*signals_->a[sensor])[i],
+          model.felt(change, sensor), u);
     }
   }
   return true;
 }
 
-bool Fit::equations() {
-  of_stretch_.assign(stretches_.size(), {});
+template <class Model>
+bool Fit<Model>::equations() {
+  of_stretch_.resize(stretches_.size());
   normal_.setZero();
   right_.setZero();
   squares_.fill(0.0);
@@ -560,12 +737,21 @@ bool Fit::equations() {
                  squares_[sensor] += residual * residual;
                });
     if (!followed) return false;
+    if constexpr (Model::tilts)
+      for (const Index of_rate : {0, 1}) {
+        const double weight = of_rate == 1 ? bond_.of_turning : bond_.of_turn;
+        line.setZero();
+        line[4 + of_rate] = 1.0;
+        line[6 + of_rate] = -1.0;
+        square += (weight * line) * line.transpose();
+        right += weight * BondKnowledge::turn_off(stretches_[n], of_rate) * line;
+      }
     for (const bool of_rate : {false, true}) {
       const double weight = of_rate ? bond_.of_rate : bond_.of_extension;
       line.setZero();
       line[of_rate ? 1 : 0] = 1.0;
       line[of_rate ? 3 : 2] = -1.0;
-      if (!of_rate) line[of_k23] = model_.m3 * model_.g / (model_.k23 * model_.k23);
+      if (!of_rate) line[Model::of_k23] = model_.m3 * model_.g / (model_.k23 * model_.k23);
       square += (weight * line) * line.transpose();
       right += weight *
                (of_rate ? BondKnowledge::rate_off(stretches_[n])
@@ -573,24 +759,25 @@ bool Fit::equations() {
                line;
     }
     prior += bond_.off(model_, stretches_[n]);
-    of_stretch_[n] = {square.topLeftCorner<starts, starts>(), square.topRightCorner<starts, unknowns>(),
-                      right.head<starts>()};
-    normal_ += square.bottomRightCorner<unknowns, unknowns>();
-    right_ += right.tail<unknowns>();
+    of_stretch_[n] = {square.template topLeftCorner<starts, starts>(),
+                      square.template topRightCorner<starts, unknowns>(), right.template head<starts>()};
+    normal_ += square.template bottomRightCorner<unknowns, unknowns>();
+    right_ += right.template tail<unknowns>();
   }
-  const Index phase = of_phase - starts;
+  const Index phase = Model::of_phase - starts;
   normal_(phase, phase) += phase_weight_;
   right_[phase] += phase_weight_ * (model_.phase - phase_said_);
   for (std::size_t sensor = 0; sensor < sensors; ++sensor)
-    if (signals_->a[sensor]->empty())
+    if (signals_->a[sensor] == nullptr)
       for (Index i = 0; i < 2; ++i)
         normal_(shared + 2 * static_cast<Index>(sensor) + i, shared + 2 * static_cast<Index>(sensor) + i) +=
             1.0;
-  const std::pair<Index, double> of_bond[] = {{of_k23, bond_.of_stiffness}, {of_c23, bond_.of_damping}};
+  const std::pair<Index, double> of_bond[] = {{Model::of_k23, bond_.of_stiffness},
+                                              {Model::of_c23, bond_.of_damping}};
   for (const auto &[column, weight] : of_bond) {
     normal_(column - starts, column - starts) += weight;
     right_[column - starts] +=
-        weight * (column == of_k23 ? model_.k23 - bond_.stiffness : model_.c23 - bond_.damping);
+        weight * (column == Model::of_k23 ? model_.k23 - bond_.stiffness : model_.c23 - bond_.damping);
   }
   cost_ = prior + phase_weight_ * std::pow(model_.phase - phase_said_, 2);
   for (std::size_t sensor = 0; sensor < sensors; ++sensor)
@@ -598,7 +785,8 @@ bool Fit::equations() {
   return true;
 }
 
-std::optional<double> Fit::cost(const Model &model, const std::vector<Stretch> &stretches) {
+template <class Model>
+std::optional<double> Fit<Model>::cost(const Model &model, const std::vector<Stretch> &stretches) {
   double sum = bond_.off(model) + phase_weight_ * std::pow(model.phase - phase_said_, 2);
   for (const Stretch &stretch : stretches)
     sum += bond_.off(model, stretch);
@@ -612,7 +800,8 @@ std::optional<double> Fit::cost(const Model &model, const std::vector<Stretch> &
   return sum;
 }
 
-bool Fit::settle_levels(bool *settled) {
+template <class Model>
+bool Fit<Model>::settle_levels(bool *settled) {
   const std::array<double, sensors> before = level_;
   for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
     const double freedom = static_cast<double>(samples_) -
@@ -622,15 +811,17 @@ bool Fit::settle_levels(bool *settled) {
     level_[sensor] = std::max(least, std::sqrt(squares_[sensor] / std::max(1.0, freedom)));
   }
   constexpr double same = 1e-3;
-  const bool alike =
-      std::fabs(level_[0] / before[0] - 1.0) < same && std::fabs(level_[1] / before[1] - 1.0) < same;
+  bool alike = true;
+  for (std::size_t sensor = 0; sensor < sensors; ++sensor)
+    alike = alike && std::fabs(level_[sensor] / before[sensor] - 1.0) < same;
   if (settled != nullptr) *settled = alike;
   if (!alike) return equations();
   level_ = before;
   return true;
 }
 
-bool Fit::solve() {
+template <class Model>
+bool Fit<Model>::solve() {
   if (!equations() || !settle_levels()) return false;
   constexpr int most_rounds = 30;
   constexpr double first_damping = 1e-3;
@@ -640,9 +831,9 @@ bool Fit::solve() {
     Eigen::Matrix<double, unknowns, unknowns> reduced = normal_;
     reduced.diagonal() *= 1.0 + damping;
     Shared right = right_;
-    std::vector<Eigen::LDLT<Eigen::Matrix4d>> own;
+    std::vector<Eigen::LDLT<Eigen::Matrix<double, starts, starts>>> own;
     for (const Equations &e : of_stretch_) {
-      Eigen::Matrix4d square = e.own;
+      Eigen::Matrix<double, starts, starts> square = e.own;
       square.diagonal() *= 1.0 + damping;
       own.emplace_back(square);
       reduced -= e.mixed.transpose() * own.back().solve(e.mixed);
@@ -656,21 +847,25 @@ bool Fit::solve() {
     std::vector<Stretch> stretches = stretches_;
     double expected = -change.dot(right_);
     for (std::size_t n = 0; n < stretches.size(); ++n) {
-      const Eigen::Vector4d by = -own[n].solve(of_stretch_[n].own_right + of_stretch_[n].mixed * change);
+      const typename Model::Start by =
+          -own[n].solve(of_stretch_[n].own_right + of_stretch_[n].mixed * change);
       stretches[n].start += by;
       expected -= by.dot(of_stretch_[n].own_right);
     }
-    model.k += change[of_k - starts];
-    model.c += change[of_c - starts];
-    model.k23 += change[of_k23 - starts];
-    model.c23 += change[of_c23 - starts];
-    model.phase += change[of_phase - starts];
-    model.omega += change[of_omega - starts];
+    bool possible = true;
+    for (std::size_t j = 0; j < Model::contacts; ++j) {
+      model.k[j] += change[Model::of_k(static_cast<Index>(j)) - starts];
+      model.c[j] += change[Model::of_c(static_cast<Index>(j)) - starts];
+      possible = possible && model.k[j] > 0.2 * model_.k[j] && model.k[j] < 5.0 * model_.k[j];
+    }
+    model.k23 += change[Model::of_k23 - starts];
+    model.c23 += change[Model::of_c23 - starts];
+    model.phase += change[Model::of_phase - starts];
+    model.omega += change[Model::of_omega - starts];
     for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
       model.offset[sensor] += change[shared + 2 * static_cast<Index>(sensor)];
       model.drift[sensor] += change[shared + 2 * static_cast<Index>(sensor) + 1];
     }
-    const bool possible = model.k > 0.2 * model_.k && model.k < 5.0 * model_.k;
     const std::optional<double> found = possible ? cost(model, stretches) : std::nullopt;
     if (!found || !(*found <= cost_)) {
       damping *= 8.0;
@@ -690,10 +885,11 @@ bool Fit::solve() {
   return true;
 }
 
-std::optional<MatrixXd> Fit::covariance() {
+template <class Model>
+std::optional<MatrixXd> Fit<Model>::covariance() {
   if (!equations()) return std::nullopt;
   MatrixXd reduced = normal_;
-  std::vector<Eigen::LDLT<Eigen::Matrix4d>> own;
+  std::vector<Eigen::LDLT<Eigen::Matrix<double, starts, starts>>> own;
   for (const Equations &e : of_stretch_) {
     own.emplace_back(e.own);
     reduced -= e.mixed.transpose() * own.back().solve(e.mixed);
@@ -730,13 +926,14 @@ std::optional<MatrixXd> Fit::covariance() {
   // Noise that has passed the filter is correlated from sample to sample.
   const double chance = signals_->filter ? 0.0 : 4.0 * std::sqrt(2.0 / static_cast<double>(scores.size()));
   MatrixXd result = plain;
-  for (const Index i : {of_k - starts, of_c - starts})
+  for (Index i = 0; i < 2 * Model::contacts; ++i)
     if (of_cycles(i, i) > (1.0 + chance) * plain(i, i)) result = of_cycles;
   return result;
 }
 
 // Whether what is left is noise: not correlated from sample to sample, nor the same in each cycle.
-bool Fit::is_noise() const {
+template <class Model>
+bool Fit<Model>::is_noise() const {
   constexpr std::size_t lags = 3, bins = 24;
   std::array<std::array<double, lags + 1>, sensors> products{};
   std::array<std::array<double, bins>, sensors> sums{}, counts{}, of_cycle{}, squares_of_cycles{};
@@ -798,22 +995,28 @@ bool Fit::is_noise() const {
   return true;
 }
 
-double Fit::tension() const {
+template <class Model>
+double Fit<Model>::tension() const {
   double most = 0.0;
   const Motion motion(*signals_, model_);
   for (const Stretch &stretch : stretches_) {
     follow(
         motion, stretch, false, [](std::size_t, std::size_t, double, const auto &, double) {},
         [&](const State &y) {
-          if (y[0] < 0.0) most = std::max(most, model_.k * y[0] + model_.c * y[1]);
+          for (std::size_t j = 0; j < Model::contacts; ++j)
+            if (const double x = model_.position(y, j)(0); x < 0.0)
+              most = std::max(most, model_.k[j] * x + model_.c[j] * model_.velocity(y, j)(0));
         });
   }
   return most;
 }
 
+using OneContact = ModelOf<1>;
+using TwoContacts = ModelOf<2>;
+
 // Stretches from contact to contact, with the drum's state that the fit of single contacts gives.
-std::vector<Stretch> first_stretches(const Signals &signals, const Identification &start) {
-  std::vector<Stretch> stretches;
+std::vector<OneContact::Stretch> first_stretches(const Signals &signals, const Identification &start) {
+  std::vector<OneContact::Stretch> stretches;
   constexpr double least_cycles_apart = 0.5;
   for (const ContactPiece &piece : start.pieces) {
     const std::size_t i = piece.run.first + piece.run.size() / 3;
@@ -826,52 +1029,129 @@ std::vector<Stretch> first_stretches(const Signals &signals, const Identificatio
   return stretches;
 }
 
-// Bond and motion of the frame: m3 (a3 + g) is the force of a spring and a dashpot, whose length and speed
-// are integrals of measured accelerations and, of each stretch, two unknowns.
-bool start_frame(const Signals &signals, Model &model, std::vector<Stretch> &stretches,
-                 const BondKnowledge &bond_known) {
-  const std::vector<double> &a_drum = signals.drum, &a_frame = signals.frame;
-  Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  const auto rows_of = [&](const Stretch &stretch, Eigen::MatrixX2d &bond, Eigen::MatrixX2d &own,
-                           VectorXd &force) {
-    std::vector<double> between(stretch.end - stretch.first);
-    const auto rows = static_cast<Index>(between.size());
-    bond.resize(rows, 2);
-    own.resize(rows, 2);
-    force.resize(rows);
-    for (std::size_t j = 0; j < between.size(); ++j)
-      between[j] = a_drum[stretch.first + j] - a_frame[stretch.first + j];
-    const Integrals way = integrals(between, {0, between.size()}, signals.dt);
-    for (Index j = 0; j < rows; ++j) {
-      const auto at = static_cast<std::size_t>(j);
-      bond.row(j) << way.twice[at], way.once[at];
-      own.row(j) << 1.0, signals.dt * static_cast<double>(j);
-      force[j] = model.m3 * (a_frame[stretch.first + at] + model.g);
+// Position and velocity at a contact at a sample, integrated from the nearest one of this contact; nothing if
+// that is more than a cycle away.
+std::optional<Eigen::Vector2d> state_at(std::size_t sample, const Identification &contact,
+                                        const std::vector<double> &a, const Signals &signals) {
+  const auto known = [&](std::size_t i) { return i < contact.x.size() && std::isfinite(contact.x[i]); };
+  for (std::size_t off = 0; static_cast<double>(off) <= signals.per_cycle; ++off) {
+    const double time = signals.dt * static_cast<double>(off);
+    if (known(sample + off)) {
+      const std::size_t at = sample + off;
+      const Integrals way = integrals(a, {sample, at + 1}, signals.dt);
+      const double v = contact.v[at] - way.once.back();
+      return Eigen::Vector2d(contact.x[at] - time * v - way.twice.back(), v);
     }
-  };
+    if (off <= sample && known(sample - off)) {
+      const std::size_t at = sample - off;
+      const Integrals way = integrals(a, {at, sample + 1}, signals.dt);
+      return Eigen::Vector2d(contact.x[at] + time * contact.v[at] + way.twice.back(),
+                             contact.v[at] + way.once.back());
+    }
+  }
+  return std::nullopt;
+}
+
+// The same of a drum on two contacts.
+std::vector<TwoContacts::Stretch>
+first_stretches(const Signals &signals, const std::array<HalfStart, 2> &halves, const TwoContacts &model) {
+  std::vector<TwoContacts::Stretch> stretches;
+  constexpr double least_cycles_apart = 0.5;
+  const double apart = model.place[1] - model.place[0];
+  for (const ContactPiece &piece : halves[0].contact.pieces) {
+    const std::size_t i = piece.run.first + piece.run.size() / 3;
+    if (!stretches.empty() &&
+        static_cast<double>(i - stretches.back().first) < least_cycles_apart * signals.per_cycle)
+      continue;
+    std::array<Eigen::Vector2d, 2> ends;
+    bool known = true;
+    for (std::size_t j = 0; j < ends.size(); ++j) {
+      const auto end = state_at(i, halves[j].contact, halves[j].acceleration, signals);
+      known = known && end;
+      if (end) ends[j] = *end;
+    }
+    if (!known) continue;
+    if (!stretches.empty()) stretches.back().end = i;
+    const Eigen::Vector2d middle = (model.place[1] * ends[0] - model.place[0] * ends[1]) / apart,
+                          tilt = (ends[1] - ends[0]) / apart;
+    TwoContacts::Stretch stretch{i, signals.size(), TwoContacts::Start::Zero()};
+    stretch.start.head<2>() = middle;
+    stretch.start.segment<2>(4) = tilt;
+    stretches.push_back(stretch);
+  }
+  return stretches;
+}
+
+// m (a + g) of a mass is the force of a spring and a dashpot, whose length and speed are integrals of the
+// accelerations of foot and mass and, of each stretch, two unknowns.
+struct BondRows {
   Eigen::MatrixX2d bond, own;
   VectorXd force;
-  for (const Stretch &stretch : stretches) {
-    rows_of(stretch, bond, own, force);
+
+  BondRows(const std::vector<double> &foot, const std::vector<double> &mass, double m, double g,
+           const SampleRun &run, double dt)
+      : bond(run.size(), 2), own(run.size(), 2), force(run.size()) {
+    std::vector<double> between(run.size());
+    for (std::size_t j = 0; j < between.size(); ++j)
+      between[j] = foot[run.first + j] - mass[run.first + j];
+    const Integrals way = integrals(between, {0, between.size()}, dt);
+    for (std::size_t j = 0; j < between.size(); ++j) {
+      const auto row = static_cast<Index>(j);
+      bond.row(row) << way.twice[j], way.once[j];
+      own.row(row) << 1.0, dt * static_cast<double>(j);
+      force[row] = m * (mass[run.first + j] + g);
+    }
+  }
+  // Adds the normal equations of stiffness and damping.
+  void add(Eigen::Matrix2d &square, Eigen::Vector2d &right) const {
     const Eigen::LDLT<Eigen::Matrix2d> solver(own.transpose() * own);
     const Eigen::MatrixX2d left = bond - own * solver.solve(own.transpose() * bond);
     square += left.transpose() * left;
     right += left.transpose() * force;
   }
-  Eigen::Vector2d law = square.ldlt().solve(right);
-  if (bond_known.of_stiffness > 0.0) law = {bond_known.stiffness, bond_known.damping};
+  // Extension and its rate at the first sample.
+  Eigen::Vector2d start(const Eigen::Vector2d &law) const {
+    const Eigen::Vector2d found =
+        (own.transpose() * own).ldlt().solve(own.transpose() * (force - bond * law));
+    const double speed = found[1] / law[0];
+    return {(found[0] - law[1] * speed) / law[0], speed};
+  }
+};
+
+// Bond and motion of the frame.
+template <class Model>
+bool start_frame(const Signals &signals, Model &model, std::vector<typename Model::Stretch> &stretches,
+                 const BondKnowledge &bond_known) {
+  const auto rows_of = [&](const auto &stretch) {
+    return BondRows(signals.drum, signals.frame, model.m3, model.g, {stretch.first, stretch.end}, signals.dt);
+  };
+  Eigen::Vector2d law(bond_known.stiffness, bond_known.damping);
+  if (!(bond_known.of_stiffness > 0.0)) {
+    Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    for (const auto &stretch : stretches)
+      rows_of(stretch).add(square, right);
+    law = square.ldlt().solve(right);
+  }
   if (!law.allFinite() || !(law[0] > 0.0)) return false;
   model.k23 = law[0];
   model.c23 = law[1];
-  for (Stretch &stretch : stretches) {
-    rows_of(stretch, bond, own, force);
-    const Eigen::Vector2d found =
-        (own.transpose() * own).ldlt().solve(own.transpose() * (force - bond * law));
-    const double speed = found[1] / model.k23; // of the drum over the frame
-    stretch.start[3] = stretch.start[1] - speed;
-    stretch.start[2] = stretch.start[0] - (found[0] - model.c23 * speed) / model.k23;
-    stretch.bond = {stretch.start[0] - stretch.start[2] - model.m3 * model.g / model.k23, speed};
+  const double extension = model.m3 * model.g / model.k23;
+  for (auto &stretch : stretches) {
+    Eigen::Vector2d bond = rows_of(stretch).start(law);
+    if constexpr (Model::tilts) {
+      // A bond whose sides differ is turned by the weight that it carries.
+      const BondPlaces &spring = model.spring;
+      const double whole = extension / (1.0 - spring.first * spring.first / spring.second);
+      bond[0] += whole - extension;
+      stretch.turn = BondRows(signals.turn_drum, signals.turn_frame, model.I3, 0.0,
+                              {stretch.first, stretch.end}, signals.dt)
+                         .start({law[0] * spring.second, law[1] * model.dashpot.second});
+      stretch.turn[0] -= spring.first / spring.second * whole;
+      stretch.start.template segment<2>(6) = stretch.start.template segment<2>(4) - stretch.turn;
+    }
+    stretch.start.template segment<2>(2) = stretch.start.template segment<2>(0) - bond;
+    stretch.bond = {bond[0] - extension, bond[1]};
   }
   return true;
 }
@@ -881,40 +1161,44 @@ bool start_frame(const Signals &signals, Model &model, std::vector<Stretch> &str
 namespace {
 
 // A fit with the covariance of its shared unknowns.
+template <class Model>
 struct Solved {
-  Fit fit;
+  Fit<Model> fit;
   MatrixXd covariance;
 
   double cost() const {
     double sum = fit.phase_cost();
-    for (std::size_t sensor = 0; sensor < sensors; ++sensor)
+    for (std::size_t sensor = 0; sensor < Model::sensors; ++sensor)
       sum += 2.0 * static_cast<double>(fit.samples()) * std::log(fit.level(sensor));
     return sum;
   }
 };
 
-std::optional<Solved> solved(Fit fit) {
+template <class Model>
+std::optional<Solved<Model>> solved(Fit<Model> fit) {
   if (!fit.solve()) return std::nullopt;
   const std::optional<MatrixXd> covariance = fit.covariance();
-  return covariance ? std::optional(Solved{std::move(fit), *covariance}) : std::nullopt;
+  return covariance ? std::optional(Solved<Model>{std::move(fit), *covariance}) : std::nullopt;
 }
 
 // Joins stretches for as long as one motion follows them as well as several did.
-void join_stretches(Solved &best, std::size_t together) {
+template <class Model>
+void join_stretches(Solved<Model> &best, std::size_t together) {
   while (best.fit.stretches().size() > 1) {
-    Fit trial = best.fit;
+    Fit<Model> trial = best.fit;
     trial.join(together);
-    std::optional<Solved> longer = solved(std::move(trial));
+    std::optional<Solved<Model>> longer = solved(std::move(trial));
     if (!longer) return;
     const double worse = 1.0 + 4.0 / std::sqrt(2.0 * static_cast<double>(longer->fit.samples()));
-    for (std::size_t sensor = 0; sensor < sensors; ++sensor)
+    for (std::size_t sensor = 0; sensor < Model::sensors; ++sensor)
       if (longer->fit.level(sensor) > worse * best.fit.level(sensor)) return;
     best = std::move(*longer);
   }
 }
 
 // Whether a fit follows the record better than another of the other condition.
-bool is_better(const Solved &one, const Solved &other) {
+template <class Model>
+bool is_better(const Solved<Model> &one, const Solved<Model> &other) {
   if (one.fit.contradicts_phase() != other.fit.contradicts_phase()) return other.fit.contradicts_phase();
   const std::size_t stretches = one.fit.stretches().size(), of_other = other.fit.stretches().size();
   // The condition that joins more contacts is the better one: short stretches follow jitter, too.
@@ -933,20 +1217,16 @@ double irregularity(const Record &record) {
   return most;
 }
 
-} // namespace
-
-std::optional<MotionFit> fit_motion(const Record &record, const Identification &start,
-                                    const MotionSetting &setting) {
-  if (!record.omega || !record.phase || !record.Fw || !record.m2 || !record.m3 || record.a_drum.empty() ||
-      record.a_frame.empty() || !(start.law.k.mean > 0.0))
-    return std::nullopt;
+// Signals of a record of these sensors, and as logged behind a filter.
+Signals signals_from(const Record &record, std::vector<const std::vector<double> *> of_drum,
+                     const std::vector<double> &of_frame) {
   Signals signals;
-  const std::vector<double> none;
-  signals.a = {&record.a_drum, record.frame_computed ? &none : &record.a_frame};
+  signals.a = std::move(of_drum);
+  signals.a.push_back(record.frame_computed ? nullptr : &of_frame);
   signals.drum = record.a_drum;
   signals.frame = record.a_frame;
+  signals.filter.sensors = static_cast<Index>(signals.a.size());
   if (record.logger_filter) {
-    signals.a = {&record.logged_drum, record.frame_computed ? &none : &record.logged_frame};
     signals.filter.corner = 2.0 * pi * record.logger_filter->corner;
     signals.filter.damping = record.logger_filter->sections();
     signals.filter.odd = record.logger_filter->order % 2 == 1;
@@ -961,7 +1241,12 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
   signals.middle = 0.5 * (record.time.front() + record.time.back());
   signals.half_length = 0.5 * (record.time.back() - record.time.front());
   signals.per_cycle = record.period() / record.interval;
+  return signals;
+}
 
+// What the record says of machine and exciter.
+template <class Model>
+Model model_from(const Record &record) {
   constexpr double usual_gravity = 9.81;
   Model model{};
   model.m2 = *record.m2;
@@ -970,9 +1255,139 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
   model.me_re = *record.Fw / (*record.omega * *record.omega);
   model.omega = *record.omega;
   model.phase = *record.phase;
-  model.k = start.law.k.mean;
-  model.c = std::max(start.law.c.mean, 1e-3 * std::sqrt(model.k * model.m2));
-  std::vector<Stretch> stretches = first_stretches(signals, start);
+  return model;
+}
+
+double weight_of(double half_width) { return 3.84 / (half_width * half_width); }
+
+// What is known of the bond if the frame's motion is not measured.
+BondKnowledge bond_known(const Record &record, double m3, double g) {
+  BondKnowledge bond;
+  if (!record.frame_computed) return bond;
+  constexpr double exact = 1e-6, transient = 0.1; // what may still swing, of the static extension
+  bond.stiffness = record.bond->stiffness;
+  bond.damping = record.bond->damping;
+  bond.of_stiffness = weight_of(std::max(exact, record.bond->tolerance) * bond.stiffness);
+  bond.of_damping = weight_of(std::max(exact, record.bond->tolerance) * std::max(bond.damping, 1.0));
+  const double extension = transient * m3 * g / bond.stiffness;
+  bond.of_extension = weight_of(extension);
+  bond.of_rate = weight_of(extension * std::sqrt(bond.stiffness / m3));
+  return bond;
+}
+
+bool complete(const Record &record) {
+  return record.omega && record.phase && record.Fw && record.m2 && record.m3 && !record.a_drum.empty() &&
+         !record.a_frame.empty();
+}
+
+// Follows a record from these stretches.
+template <class Model>
+std::optional<MotionFit> follow_record(const Record &record, const Signals &signals, Model model,
+                                       std::vector<typename Model::Stretch> stretches,
+                                       const BondKnowledge &bond, const MotionSetting &setting) {
+  if (stretches.size() < 2 || !start_frame(signals, model, stretches, bond)) return std::nullopt;
+  const double phase_weight =
+      setting.phase_within ? 3.84 / std::pow(std::max(*setting.phase_within, 1e-7), 2) : 0.0;
+
+  // The condition is found with the first contacts of a long record.
+  constexpr std::size_t pilot_contacts = 80, few = 3, many = 8;
+  const std::vector<typename Model::Stretch> first(
+      stretches.begin(),
+      stretches.begin() + static_cast<std::ptrdiff_t>(std::min(pilot_contacts, stretches.size())));
+  std::optional<Solved<Model>> best;
+  double difference = std::numeric_limits<double>::infinity();
+  std::array<double, Model::contacts> of_k_apart{}, of_c_apart{}; // between the two conditions
+  for (const bool pulls : {false, true}) {
+    model.pulls = pulls;
+    std::optional<Solved<Model>> one =
+        solved(Fit<Model>(signals, model, first, phase_weight, model.phase, bond));
+    if (!one) continue;
+    join_stretches(*one, few);
+    if (best) {
+      difference = std::fabs(one->cost() - best->cost());
+      for (std::size_t j = 0; j < Model::contacts; ++j) {
+        of_k_apart[j] = one->fit.model().k[j] - best->fit.model().k[j];
+        of_c_apart[j] = one->fit.model().c[j] - best->fit.model().c[j];
+      }
+    }
+    if (!best || is_better(*one, *best)) best = std::move(one);
+  }
+  if (!best) return std::nullopt;
+  if (first.size() < stretches.size()) {
+    const std::size_t together = std::max<std::size_t>(1, (first.size() + best->fit.stretches().size() - 1) /
+                                                              best->fit.stretches().size());
+    best = solved(
+        Fit<Model>(signals, best->fit.model(), joined(stretches, together), phase_weight, model.phase, bond));
+    if (!best) return std::nullopt;
+    join_stretches(*best, many);
+  }
+  if (best->fit.contradicts_phase()) return std::nullopt;
+  MotionFit result;
+  const double freedom =
+      static_cast<double>(signals.measured() * best->fit.samples()) -
+      static_cast<double>(Model::starts * static_cast<Index>(best->fit.stretches().size()) + Model::unknowns);
+  const double t = t_factor(std::max(1.0, freedom));
+  // The time between samples is known as well as the times are written; k goes with its square.
+  const double computed = 1e-9, of_time = 2.0 * irregularity(record) / (2.0 * signals.half_length) + computed;
+  const auto interval = [&](double mean, Index column) {
+    const bool of_soil = column < Model::of_k23;
+    const Index at = column - Model::starts;
+    return MeanInterval{
+        mean, std::hypot(t * std::sqrt(best->covariance(at, at)), of_soil ? 2.0 * of_time * mean : 0.0)};
+  };
+  const Model &found = best->fit.model();
+  const auto correlation = [&](Index one, const MeanInterval &of_one, Index other,
+                               const MeanInterval &of_other) {
+    return best->covariance(one - Model::starts, other - Model::starts) * t * t /
+           (of_one.half_width * of_other.half_width);
+  };
+  // If the record hardly tells A from B, the interval contains the result of both. In unbroken contact both
+  // follow the same motion, with different k, c and phase.
+  constexpr double clear = 20.0;
+  constexpr double certain = 5.0 * clear;
+  for (Index j = 0; j < Model::contacts; ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    ContactFit contact{interval(found.k[at], Model::of_k(j)), interval(found.c[at], Model::of_c(j))};
+    contact.correlation = correlation(Model::of_k(j), contact.k, Model::of_c(j), contact.c);
+    result.contacts.push_back(contact);
+  }
+  if constexpr (Model::contacts == 2)
+    result.k_together =
+        correlation(Model::of_k(0), result.contacts[0].k, Model::of_k(1), result.contacts[1].k);
+  if (difference < certain)
+    for (std::size_t j = 0; j < result.contacts.size(); ++j) {
+      ContactFit &contact = result.contacts[j];
+      contact.k.half_width = std::hypot(contact.k.half_width, of_k_apart[j]);
+      contact.c.half_width = std::hypot(contact.c.half_width, of_c_apart[j]);
+    }
+  result.omega = interval(found.omega, Model::of_omega);
+  result.phase = interval(found.phase, Model::of_phase);
+  result.pulls = found.pulls;
+  result.pull_is_clear = difference > clear;
+  result.bond_stiffness = found.k23;
+  result.bond_damping = found.c23;
+  result.tension = best->fit.tension();
+  result.residual = best->fit.level(0);
+  result.is_noise = best->fit.is_noise();
+  const typename Model::Stretch &longest =
+      *std::max_element(best->fit.stretches().begin(), best->fit.stretches().end(),
+                        [](const auto &a, const auto &b) { return a.end - a.first < b.end - b.first; });
+  result.cycles = static_cast<double>(longest.end - longest.first) / signals.per_cycle;
+  return result;
+}
+
+} // namespace
+
+std::optional<MotionFit> fit_motion(const Record &record, const Identification &start,
+                                    const MotionSetting &setting) {
+  if (!complete(record) || !(start.law.k.mean > 0.0)) return std::nullopt;
+  const bool logged = record.logger_filter.has_value();
+  const Signals signals = signals_from(record, {logged ? &record.logged_drum : &record.a_drum},
+                                       logged ? record.logged_frame : record.a_frame);
+  auto model = model_from<OneContact>(record);
+  model.k = {start.law.k.mean};
+  model.c = {std::max(start.law.c.mean, 1e-3 * std::sqrt(model.k[0] * model.m2))};
+  std::vector<OneContact::Stretch> stretches = first_stretches(signals, start);
   if (signals.filter) { // the filter passes constants as they are
     const std::vector<double> *const before[] = {&record.a_drum, &record.a_frame};
     for (std::size_t sensor = 0; sensor < signals.measured(); ++sensor)
@@ -987,91 +1402,52 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
       stretches.back().end = signals.size();
     }
   }
-  BondKnowledge bond;
-  if (record.frame_computed) {
-    const auto weight = [](double half_width) { return 3.84 / (half_width * half_width); };
-    constexpr double exact = 1e-6, transient = 0.1; // what may still swing, of the static extension
-    bond.stiffness = record.bond->stiffness;
-    bond.damping = record.bond->damping;
-    bond.of_stiffness = weight(std::max(exact, record.bond->tolerance) * bond.stiffness);
-    bond.of_damping = weight(std::max(exact, record.bond->tolerance) * std::max(bond.damping, 1.0));
-    const double extension = transient * model.m3 * model.g / bond.stiffness;
-    bond.of_extension = weight(extension);
-    bond.of_rate = weight(extension * std::sqrt(bond.stiffness / model.m3));
-  }
-  if (stretches.size() < 2 || !start_frame(signals, model, stretches, bond)) return std::nullopt;
-  const double phase_weight =
-      setting.phase_within ? 3.84 / std::pow(std::max(*setting.phase_within, 1e-7), 2) : 0.0;
+  return follow_record(record, signals, model, std::move(stretches), bond_known(record, model.m3, model.g),
+                       setting);
+}
 
-  // The condition is found with the first contacts of a long record.
-  constexpr std::size_t pilot_contacts = 80, few = 3, many = 8;
-  const std::vector<Stretch> first(
-      stretches.begin(),
-      stretches.begin() + static_cast<std::ptrdiff_t>(std::min(pilot_contacts, stretches.size())));
-  std::optional<Solved> best;
-  double difference = std::numeric_limits<double>::infinity();
-  double of_k_apart = 0.0, of_c_apart = 0.0; // between the two conditions
-  for (const bool pulls : {false, true}) {
-    model.pulls = pulls;
-    std::optional<Solved> one = solved(Fit(signals, model, first, phase_weight, model.phase, bond));
-    if (!one) continue;
-    join_stretches(*one, few);
-    if (best) {
-      difference = std::fabs(one->cost() - best->cost());
-      of_k_apart = one->fit.model().k - best->fit.model().k;
-      of_c_apart = one->fit.model().c - best->fit.model().c;
+std::optional<MotionFit> fit_motion(const Record &record, const std::array<HalfStart, 2> &halves,
+                                    const MotionSetting &setting) {
+  if (!complete(record) || !record.ends) return std::nullopt;
+  Signals signals = signals_from(record, {&record.a_left, &record.a_right}, record.a_frame);
+  const TwoEnds &ends = *record.ends;
+  auto model = model_from<TwoContacts>(record);
+  for (std::size_t j = 0; j < halves.size(); ++j) {
+    const LawEstimate &law = halves[j].contact.law;
+    if (!(law.k.mean > 0.0)) return std::nullopt;
+    model.k[j] = law.k.mean;
+    model.c[j] = std::max(law.c.mean, 1e-3 * std::sqrt(model.k[j] * model.m2));
+    model.place[j] = ends.contacts[j].y;
+  }
+  model.sensor = {-ends.sensor, ends.sensor};
+  model.I2 = ends.drum_inertia;
+  model.I3 = ends.frame_inertia;
+  model.exciter = ends.exciter;
+  const auto places = [&ends](double AxleLink::*value) {
+    double all = 0.0;
+    BondPlaces sums;
+    for (const AxleLink &bond : ends.bonds) {
+      all += bond.*value;
+      sums.first += bond.*value * bond.y;
+      sums.second += bond.*value * bond.y * bond.y;
     }
-    if (!best || is_better(*one, *best)) best = std::move(one);
-  }
-  if (!best) return std::nullopt;
-  if (first.size() < stretches.size()) {
-    const std::size_t together = std::max<std::size_t>(1, (first.size() + best->fit.stretches().size() - 1) /
-                                                              best->fit.stretches().size());
-    best =
-        solved(Fit(signals, best->fit.model(), joined(stretches, together), phase_weight, model.phase, bond));
-    if (!best) return std::nullopt;
-    join_stretches(*best, many);
-  }
-  if (best->fit.contradicts_phase()) return std::nullopt;
-  MotionFit result;
-  const double freedom =
-      static_cast<double>(signals.measured() * best->fit.samples()) -
-      static_cast<double>(starts * static_cast<Index>(best->fit.stretches().size()) + unknowns);
-  const double t = t_factor(std::max(1.0, freedom));
-  // The time between samples is known as well as the times are written; k goes with its square.
-  const double computed = 1e-9, of_time = 2.0 * irregularity(record) / (2.0 * signals.half_length) + computed;
-  const auto interval = [&](double mean, Index column) {
-    const bool of_soil = column == of_k || column == of_c;
-    return MeanInterval{mean, std::hypot(t * std::sqrt(best->covariance(column - starts, column - starts)),
-                                         of_soil ? 2.0 * of_time * mean : 0.0)};
+    return all > 0.0 ? BondPlaces{sums.first / all, sums.second / all} : BondPlaces{};
   };
-  const Model &found = best->fit.model();
-  result.k = interval(found.k, of_k);
-  result.c = interval(found.c, of_c);
-  result.correlation =
-      best->covariance(of_k - starts, of_c - starts) * t * t / (result.k.half_width * result.c.half_width);
-  result.omega = interval(found.omega, of_omega);
-  result.phase = interval(found.phase, of_phase);
-  result.pulls = found.pulls;
-  constexpr double clear = 20.0;
-  result.pull_is_clear = difference > clear;
-  // If the record hardly tells A from B, the interval contains the result of both. In unbroken contact both
-  // follow the same motion, with different k, c and phase.
-  constexpr double certain = 5.0 * clear;
-  if (difference < certain) {
-    result.k.half_width = std::hypot(result.k.half_width, of_k_apart);
-    result.c.half_width = std::hypot(result.c.half_width, of_c_apart);
-  }
-  result.bond_stiffness = found.k23;
-  result.bond_damping = found.c23;
-  result.tension = best->fit.tension();
-  result.residual = best->fit.level(0);
-  result.is_noise = best->fit.is_noise();
-  const Stretch &longest =
-      *std::max_element(best->fit.stretches().begin(), best->fit.stretches().end(),
-                        [](const Stretch &a, const Stretch &b) { return a.end - a.first < b.end - b.first; });
-  result.cycles = static_cast<double>(longest.end - longest.first) / signals.per_cycle;
-  return result;
+  model.spring = places(&AxleLink::k);
+  model.dashpot = places(&AxleLink::c);
+  signals.turn_drum = drum_tilt(record);
+  signals.turn_frame = frame_tilt(record);
+  BondKnowledge bond = bond_known(record, model.m3, model.g);
+  // How the frame is tilted against the drum is computed: it may be off by as much as it moves.
+  double squares = 0.0;
+  for (std::size_t i = 0; i < record.size(); ++i)
+    squares += std::pow(signals.turn_drum[i] - signals.turn_frame[i], 2);
+  const double omega2 = model.omega * model.omega;
+  const double turn = std::sqrt(squares / static_cast<double>(record.size())) / omega2 +
+                      std::fabs(model.spring.first) / model.spring.second * model.me_re / model.m2;
+  bond.of_turn = weight_of(turn);
+  bond.of_turning = weight_of(turn * model.omega);
+  return follow_record(record, signals, model, first_stretches(signals, halves, model), bond, setting);
 }
 
 } // namespace drumlin::post

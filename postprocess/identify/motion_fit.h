@@ -12,23 +12,31 @@
 #include "identify/identification.h"
 #include "record/record.h"
 
+#include <array>
 #include <optional>
+#include <vector>
 
 namespace drumlin::post {
 
+/// A contact. Intervals: 95 %.
+struct ContactFit {
+  MeanInterval k{};         ///< [N/m]
+  MeanInterval c{};         ///< [N s/m]
+  double correlation = 0.0; ///< of the errors of k and c [-]
+};
+
 /// What the whole motion tells. Intervals: 95 %.
 struct MotionFit {
-  MeanInterval k{};            ///< [N/m]
-  MeanInterval c{};            ///< [N s/m]
-  double correlation = 0.0;    ///< of the errors of k and c [-]
-  MeanInterval omega{};        ///< [rad/s]
-  MeanInterval phase{};        ///< of the exciter at time 0 [rad]
-  bool pulls = false;          ///< condition A fits better
-  double tension = 0.0;        ///< the largest one, or that of condition A [N]
-  bool pull_is_clear = false;  ///< the other condition fits worse by more than noise explains
-  double bond_stiffness = 0.0; ///< between drum and frame [N/m]
-  double bond_damping = 0.0;   ///< [N s/m]
-  double residual = 0.0;       ///< RMS of the drum's acceleration [m/s2]
+  std::vector<ContactFit> contacts; ///< the one below the drum, or those below its left and its right half
+  double k_together = 0.0;          ///< correlation of the errors of k of both halves [-]
+  MeanInterval omega{};             ///< [rad/s]
+  MeanInterval phase{};             ///< of the exciter at time 0 [rad]
+  bool pulls = false;               ///< condition A fits better
+  double tension = 0.0;             ///< the largest one, or that of condition A [N]
+  bool pull_is_clear = false;       ///< the other condition fits worse by more than noise explains
+  double bond_stiffness = 0.0;      ///< between drum and frame [N/m]
+  double bond_damping = 0.0;        ///< [N s/m]
+  double residual = 0.0;            ///< RMS of the drum's acceleration [m/s2]
   /// What is left is noise; if not, the soil, the frame or the machine is another than in the equations.
   bool is_noise = false;
   double cycles = 0.0; ///< of the longest stretch that one motion follows
@@ -44,6 +52,16 @@ struct MotionSetting {
 /// equations of motion do not follow it to its noise, which a soil of another kind, a frame that does more
 /// than move up and down, or wrong data of the machine may cause.
 std::optional<MotionFit> fit_motion(const Record &record, const Identification &start,
+                                    const MotionSetting &setting);
+
+/// What the contact below a half of the drum says by itself.
+struct HalfStart {
+  Identification contact;
+  std::vector<double> acceleration; ///< of the drum at the contact [m/s2]
+};
+
+/// The same of a record of both ends of a drum that tilts with its frame, on a contact below each half.
+std::optional<MotionFit> fit_motion(const Record &record, const std::array<HalfStart, 2> &halves,
                                     const MotionSetting &setting);
 
 } // namespace drumlin::post

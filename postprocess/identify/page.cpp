@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace drumlin::post {
@@ -357,6 +358,113 @@ void write_identification_page(const std::filesystem::path &out, const Identifie
       "of drum, frame, bond and soil follow a measured record, k and c of all of it are those of this "
       "motion, "
       "with the intervals of its noise; windows, loop and residuals are those of single contacts.");
+  page.write();
+}
+
+namespace {
+
+constexpr std::array<const char *, 2> half_names = {"left", "right"};
+
+PageTable half_table(const TwoSidedRecord &record) {
+  PageTable table("halves", "Soil below each half of the drum, 95 % confidence intervals",
+                  "half | k (MN/m) | c (kN s/m) | D (-) | share in contact (-)");
+  for (std::size_t half = 0; half < half_names.size(); ++half) {
+    const HalfLaw &law = record.halves[half];
+    table.add({half_names[half], with_interval(law.k, 1e6), with_interval(law.c, 1e3),
+               with_interval(law.D, 1.0), fmt::format("{:.3f}", law.contact_share)});
+  }
+  table.add({"both", with_interval(record.k, 1e6), no_value, no_value, no_value});
+  table.add({"left over right (-)", with_interval(record.ratio, 1.0), no_value, no_value, no_value});
+  return table;
+}
+
+PageFigure half_loops(const TwoSidedRecord &record) {
+  const std::string name = "halves";
+  PageFigure figure =
+      page_figure("Fig. 1",
+                  "Force of the soil on each half, from the equations of motion, over the position of the "
+                  "drum there, in the contacts of the record's last part. The origin was found for each "
+                  "contact.",
+                  {name, "Force below each half", {}, 2}, 1.5);
+  CurveTable table("drum position (mm),contact force (kN)");
+  Panel panel{"", "drum position (mm)", "contact force (kN)", {}};
+  for (std::size_t half = 0; half < half_names.size(); ++half) {
+    const Identification &found = record.halves[half].contact;
+    constexpr std::size_t most = 400;
+    for (std::size_t i = found.x.size() - std::min(most, found.x.size()); i < found.x.size(); ++i)
+      if (std::isfinite(found.x[i])) table.row(half_names[half], {1e3 * found.x[i], 1e-3 * found.force[i]});
+    panel.curves.push_back(
+        curve(name, half_names[half], "$2", "3", half == 0 ? CurveStyle::dots_up : CurveStyle::dots_down));
+  }
+  figure.figure.panels = {panel};
+  figure.csv = table.text();
+  return figure;
+}
+
+} // namespace
+
+std::vector<std::string> identification_answer(const TwoSidedRecord &record) {
+  std::vector<std::string> lines;
+  for (std::size_t half = 0; half < half_names.size(); ++half) {
+    const HalfLaw &law = record.halves[half];
+    lines.push_back(
+        fmt::format("{} half: k = {} MN/m, c = {} kN s/m, D = {}, in contact {:.1f} % of the time",
+                    half_names[half], with_interval(law.k, 1e6), with_interval(law.c, 1e3),
+                    with_interval(law.D, 1.0), 100.0 * law.contact_share));
+  }
+  lines.push_back(fmt::format("both: k = {} MN/m; left over right {}", with_interval(record.k, 1e6),
+                              with_interval(record.ratio, 1.0)));
+  const MotionFit &motion = record.motion;
+  lines.push_back(fmt::format(
+      "From the whole motion of drum and frame with their tilts: one motion follows {:.4g} cycles and leaves "
+      "{:.2g} m/s2 of the acceleration of the drum's left end{}; condition {} {}; the bond has {:.4g} MN/m "
+      "and "
+      "{:.4g} kN s/m{}.",
+      motion.cycles, motion.residual,
+      motion.is_noise ? ", which is noise" : fmt::format(", {:.2g} % of it", 100.0 * record.left),
+      motion.pulls ? "A" : "B", motion.pull_is_clear ? "fits better" : "is as good as the other one",
+      motion.bond_stiffness / 1e6, motion.bond_damping / 1e3,
+      record.frame_computed ? ", and the frame, which no sensor measures, follows from it" : ""));
+  return lines;
+}
+
+std::string identification_csv(const TwoSidedRecord &record) {
+  std::string text = csv_line({"half", "k [N/m]", "k_half_width [N/m]", "c [N s/m]", "c_half_width [N s/m]",
+                               "D [-]", "D_half_width [-]", "contact_share [-]", "left over right [-]",
+                               "left over right_half_width [-]"});
+  for (std::size_t half = 0; half < half_names.size(); ++half) {
+    const HalfLaw &law = record.halves[half];
+    std::vector<std::string> cells = {half_names[half]};
+    for (const MeanInterval &value : {law.k, law.c, law.D})
+      cells.insert(cells.end(), {number_text(value.mean), number_text(value.half_width)});
+    cells.insert(cells.end(), {number_text(law.contact_share), "", ""});
+    text += csv_line(cells);
+  }
+  return text + csv_line({"both", number_text(record.k.mean), number_text(record.k.half_width), "", "", "",
+                          "", "", number_text(record.ratio.mean), number_text(record.ratio.half_width)});
+}
+
+void write_identification_page(const std::filesystem::path &out, const TwoSidedRecord &record,
+                               const std::string &roller) {
+  Page page(out, "What the record says of the soil below both halves", Drawing::chain);
+  page.answer(
+      fmt::format("{}, {:.4g} cycles at {:.4g} Hz.", record.file.string(), record.cycles, record.frequency));
+  if (!roller.empty()) page.answer(roller);
+  for (const std::string &line : identification_answer(record))
+    page.answer(line.back() == '.' ? line : line + ".");
+  page.section("Soil below each half");
+  page.table(half_table(record));
+  page.figure(half_loops(record));
+  page.section("Method");
+  page.paragraph(
+      "The forces below both halves follow from the equations of motion of drum and frame, of their heights "
+      "and of their tilts, with a contact below each half at the width of the drum over the root of 12 from "
+      "its middle. From k and c of single contacts these equations follow the record from contact to "
+      "contact, "
+      "through flights and landings of either end; k and c of both halves, the bond, phase and frequency of "
+      "the exciter, offset and drift of each sensor and the state at the start of each stretch of cycles "
+      "minimize the squared residuals. The tilt of the frame, which no sensor measures, follows from the "
+      "bond. Intervals are those of the noise.");
   page.write();
 }
 

@@ -3,6 +3,7 @@
 
 #include "identify/identified_record.h"
 #include "identify/lumped_comparison.h"
+#include "identify/two_sided.h"
 
 #include <filesystem>
 #include <string>
@@ -22,5 +23,11 @@ std::string identification_csv(const IdentifiedRecord &record);
 /// \param roller a sentence on the roller; may be empty
 void write_identification_page(const std::filesystem::path &out, const IdentifiedRecord &record,
                                const LumpedComparison *compared = nullptr, const std::string &roller = "");
+
+/// The same of a record of both ends; identify.csv then has a row for each half and one for both.
+std::vector<std::string> identification_answer(const TwoSidedRecord &record);
+std::string identification_csv(const TwoSidedRecord &record);
+void write_identification_page(const std::filesystem::path &out, const TwoSidedRecord &record,
+                               const std::string &roller = "");
 
 } // namespace drumlin::post

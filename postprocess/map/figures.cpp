@@ -66,7 +66,9 @@ constexpr std::array<Kind, 3> kinds = {{{"loss of contact", "end of unbroken con
                                         {"period doubling", "period doubling", CurveStyle::mark_2},
                                         {"border", "multiplier jumps over -1", CurveStyle::direct_b}}};
 
-Panel empty_panel(const MapGrid &grid, const std::string &title) {
+} // namespace
+
+Panel map_panel(const MapGrid &grid, const std::string &title) {
   Panel panel;
   panel.title = title;
   const ShownAxis x = shown_axis(grid.x);
@@ -79,6 +81,14 @@ Panel empty_panel(const MapGrid &grid, const std::string &title) {
   panel.y_range = axis_range(y.scale * grid.y.from, y.scale * grid.y.to);
   return panel;
 }
+
+std::string point_cells(const MapGrid &grid, std::size_t point) {
+  const auto width = static_cast<std::size_t>(grid.x.count);
+  const int x = static_cast<int>(point % width), y = static_cast<int>(point / width);
+  return box_cells(grid, box_of(grid, x, x, y));
+}
+
+namespace {
 
 /// The tables of a map: plot_areas.csv, where neighbours of one regime in a row are one rectangle,
 /// plot_cells.csv with the layers of each point, plot_boundaries.csv; and which regimes and kinds of boundary
@@ -167,7 +177,7 @@ MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &poin
   regimes.name = "regimes";
   regimes.title = "Motion of the roller";
   regimes.only_png = true;
-  Panel panel = empty_panel(grid, given);
+  Panel panel = map_panel(grid, given);
   constexpr std::array<CurveStyle, regime_count> styles = {CurveStyle::area_1, CurveStyle::area_2,
                                                            CurveStyle::area_3, CurveStyle::area_4,
                                                            CurveStyle::area_5, CurveStyle::area_6};
@@ -183,7 +193,7 @@ MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &poin
     Figure figure = regimes;
     figure.name = layers[i].name;
     figure.title = layers[i].title;
-    Panel layer = empty_panel(grid, given);
+    Panel layer = map_panel(grid, given);
     layer.color_label = layers[i].label;
     layer.curves.push_back(
         {"plot_cells.csv", "1", fmt::format("2:3:4:5:6:{}", 7 + i), "", CurveStyle::cells});

@@ -23,6 +23,11 @@ struct ShownAxis {
 };
 ShownAxis shown_axis(const MapAxis &axis);
 
+/// A panel of a map without curves.
+Panel map_panel(const MapGrid &grid, const std::string &title);
+/// A point of the grid as CurveStyle::cells takes it: "x,y,left,right,low,high".
+std::string point_cells(const MapGrid &grid, std::size_t point);
+
 /// Kinds of boundaries as pictures name them.
 std::string boundary_title(const std::string &kind);
 

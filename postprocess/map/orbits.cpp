@@ -59,48 +59,9 @@ ChainState state_scale(const ChainParameters &p) {
   return scale;
 }
 
-std::array<std::complex<double>, 4> floquet_multipliers(const Eigen::Matrix4d &monodromy) {
-  const Eigen::EigenSolver<Eigen::Matrix4d> solver(monodromy, false);
-  std::array<std::complex<double>, 4> values{};
-  for (std::size_t i = 0; i < 4; ++i)
-    values[i] = solver.eigenvalues()[static_cast<Eigen::Index>(i)];
-  std::sort(values.begin(), values.end(),
-            [](const auto &a, const auto &b) { return std::abs(a) > std::abs(b); });
-  return values;
-}
-
 std::optional<PeriodicOrbit> find_orbit(const ChainSolver &solver, const ChainState &guess, int period) {
-  constexpr int most_iterations = 40;
-  constexpr double converged = 1e-11;
-  constexpr double lost = 1e3;
-  const ChainState scale = state_scale(solver.parameters());
-  PeriodicOrbit orbit;
-  orbit.period = period;
-  orbit.state = guess;
-  double best = lost;
-  int idle = 0;
-  for (int i = 0; i < most_iterations; ++i) {
-    const Passage passage = pass(solver, orbit.state, period, true);
-    const ChainState miss = passage.end - orbit.state;
-    const double residual = scaled_norm(miss, scale);
-    if (!(residual < lost)) return std::nullopt;
-    // Iterates beyond `converged` until rounding errors stop the improvement.
-    if (residual < converged && (residual >= 0.5 * best || residual == 0.0)) {
-      orbit.passage = passage;
-      orbit.residual = residual;
-      orbit.multipliers = floquet_multipliers(passage.jacobian);
-      return orbit;
-    }
-    idle = residual < 0.5 * best ? 0 : idle + 1;
-    if (idle > 12) return std::nullopt;
-    best = std::min(best, residual);
-    const Eigen::Matrix4d equation = scale.cwiseInverse().asDiagonal() *
-                                     (Eigen::Matrix4d::Identity() - passage.jacobian) * scale.asDiagonal();
-    const ChainState step = equation.fullPivLu().solve(miss.cwiseQuotient(scale));
-    if (!step.allFinite()) return std::nullopt;
-    orbit.state += step.cwiseProduct(scale);
-  }
-  return std::nullopt;
+  const auto orbit = newton_orbit(ChainCycles{solver}, guess, period);
+  return orbit ? std::optional(PeriodicOrbit{*orbit}) : std::nullopt;
 }
 
 namespace {
@@ -158,35 +119,18 @@ public:
 
 } // namespace
 
-Exponent largest_exponent(const ChainSolver &solver, ChainState &state, int lead, int cycles) {
-  constexpr int blocks = 20;
-  constexpr double student_t = 2.093; // 97.5 % quantile with 19 degrees of freedom
-  const ChainState scale = state_scale(solver.parameters());
-  const int per_block = std::max(1, cycles / blocks);
-  ChainMotion motion = solver.start_at(state);
-  Tangent tangent(scale);
-  std::array<double, blocks> rate{};
-  for (int cycle = -lead; cycle < blocks * per_block; ++cycle) {
-    solver.finish_cycle(motion, &tangent);
-    const double growth = scaled_norm(tangent.vector, scale);
-    if (growth > 0.0)
-      tangent.vector /= growth;
-    else
-      tangent.vector = scale; // the two motions have become equal: restart from a new difference
-    if (cycle >= 0)
-      rate[static_cast<std::size_t>(cycle / per_block)] += std::log(std::max(growth, 1e-300)) / per_block;
+void ChainCycles::advance(ChainMotion &motion, ChainState *tangent) const {
+  if (tangent == nullptr) {
+    solver.finish_cycle(motion);
+    return;
   }
-  state = motion.state;
-  Exponent exponent;
-  for (const double r : rate)
-    exponent.mean += r / blocks;
-  double square = 0.0;
-  for (const double r : rate)
-    square += (r - exponent.mean) * (r - exponent.mean);
-  const double half = student_t * std::sqrt(square / (blocks - 1) / blocks);
-  exponent.low = exponent.mean - half;
-  exponent.high = exponent.mean + half;
-  return exponent;
+  Tangent observer(*tangent);
+  solver.finish_cycle(motion, &observer);
+  *tangent = observer.vector;
+}
+
+Exponent largest_exponent(const ChainSolver &solver, ChainState &state, int lead, int cycles) {
+  return exponent_of(ChainCycles{solver}, state, lead, cycles);
 }
 
 std::vector<BranchPoint> continue_orbit(const ChainFamily &family, double from, double to, int steps,

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "chain/closed_form.h"
+#include "map/orbit_search.h"
 
 #include <Eigen/Core>
 
@@ -37,19 +38,26 @@ Passage pass(const ChainSolver &solver, const ChainState &state, int cycles, boo
 /// excitation and gravity cause within 1/omega, the time of one radian of the cycle.
 ChainState state_scale(const ChainParameters &parameters);
 
-/// A motion that repeats itself after `period` cycles.
-struct PeriodicOrbit {
-  int period = 1;
-  ChainState state = ChainState::Zero();             ///< at the start of a cycle
-  Passage passage;                                   ///< over the period, with Jacobian
-  std::array<std::complex<double>, 4> multipliers{}; ///< Floquet multipliers, largest modulus first
-  double residual = 0.0;                             ///< |end - state| in units of state_scale()
-  bool stable() const { return std::abs(multipliers[0]) < 1.0; }
-  bool always_contact() const { return passage.always_contact(); }
+/// The chain as a System of map/orbit_search.h.
+struct ChainCycles {
+  using State = ChainState;
+  using Matrix = Eigen::Matrix4d;
+  using Passage = post::Passage;
+  using Motion = ChainMotion;
+  const ChainSolver &solver;
+
+  Passage pass(const ChainState &state, int cycles, bool with_jacobian) const {
+    return post::pass(solver, state, cycles, with_jacobian);
+  }
+  ChainState scale() const { return state_scale(solver.parameters()); }
+  ChainMotion start_at(const ChainState &state) const { return solver.start_at(state); }
+  void advance(ChainMotion &motion, ChainState *tangent) const;
 };
 
-/// Eigenvalues of a monodromy matrix, largest modulus first.
-std::array<std::complex<double>, 4> floquet_multipliers(const Eigen::Matrix4d &monodromy);
+/// A motion of the chain that repeats itself.
+struct PeriodicOrbit : OrbitOf<ChainCycles> {
+  bool always_contact() const { return passage.always_contact(); }
+};
 
 /// Solves for an orbit by Newton's method, from a guess. No value if the residual does not become less than
 /// 1e-11, or if the state exceeds 1e3 times state_scale().
@@ -63,15 +71,7 @@ ChainState steady_contact_state(const ChainParameters &parameters);
 /// least overlap [N] for A. Negative if the contact is lost. Closed form: mean minus amplitude.
 double contact_margin(const ChainParameters &parameters);
 
-/// An exponential rate with its 95 % confidence interval, per cycle.
-struct Exponent {
-  double mean = 0.0, low = 0.0, high = 0.0;
-};
-
-/// Largest Lyapunov exponent over `cycles` from a motion at the start of a cycle, after `lead` cycles in
-/// which the small difference of two motions turns to the direction of fastest growth. The confidence
-/// interval is that of the mean of 20 blocks of cycles (Student's t, 19 degrees of freedom). `state` is
-/// replaced by the state at the end.
+/// exponent_of() of the chain.
 Exponent largest_exponent(const ChainSolver &solver, ChainState &state, int lead, int cycles);
 
 /// The parameters of the chain as a function of the one that is varied.

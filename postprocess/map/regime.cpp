@@ -158,49 +158,6 @@ private:
   std::vector<double> deflections_;
 };
 
-double distance(const ChainState &a, const ChainState &b, const ChainState &scale) {
-  return (a - b).cwiseQuotient(scale).norm();
-}
-
-// The orbit with its shortest period: Newton's method for a period also finds the orbits whose period is a
-// fraction of it.
-PeriodicOrbit with_shortest_period(const ChainSolver &solver, const PeriodicOrbit &orbit) {
-  constexpr double same = 1e-8;
-  const ChainState scale = state_scale(solver.parameters());
-  for (int period = 1; 2 * period <= orbit.period; ++period) {
-    if (orbit.period % period != 0) continue;
-    if (distance(pass(solver, orbit.state, period).end, orbit.state, scale) > same) continue;
-    if (const auto shorter = find_orbit(solver, orbit.state, period)) return *shorter;
-  }
-  return orbit;
-}
-
-// The stable orbit that the states at the starts of the last cycles approach; the shortest period is tried
-// first.
-std::optional<PeriodicOrbit> reached_orbit(const ChainSolver &solver, const std::vector<ChainState> &states) {
-  constexpr double near = 0.02; // of the scale, after which Newton is tried
-  constexpr double met = 1e-6;
-  const ChainState scale = state_scale(solver.parameters());
-  const std::size_t last = states.size() - 1;
-  const std::size_t longest = std::min<std::size_t>(longest_period, last / 2);
-  const auto returns =
-      [&](std::size_t period) { // as long as the period: an aperiodic motion does so by chance
-        for (std::size_t i = last; i > last - period; --i)
-          if (distance(states[i], states[i - period], scale) > near) return false;
-        return true;
-      };
-  for (std::size_t period = 1; period <= longest; ++period) {
-    if (!returns(period)) continue;
-    std::optional<PeriodicOrbit> orbit = find_orbit(solver, states[last], static_cast<int>(period));
-    if (!orbit || !orbit->stable()) continue;
-    const ChainState &long_ago = states[last - longest / period * period];
-    const double now = distance(states[last], orbit->state, scale);
-    if (now < met || (now < near && now < distance(long_ago, orbit->state, scale)))
-      return with_shortest_period(solver, *orbit);
-  }
-  return std::nullopt;
-}
-
 } // namespace
 
 MeterValues meter_values(const ChainSolver &solver, const ChainState &state, int cycles) {
@@ -214,16 +171,6 @@ MeterValues meter_values(const ChainSolver &solver, const ChainState &state, int
 }
 
 namespace {
-
-// Continues the motion for some cycles. Returns the states at the ends of the last of them.
-std::vector<ChainState> last_states(const ChainSolver &solver, ChainMotion &motion, int cycles) {
-  std::vector<ChainState> states;
-  for (int cycle = 0; cycle < cycles; ++cycle) {
-    solver.finish_cycle(motion);
-    if (cycle + 2 * longest_period + 1 >= cycles) states.push_back(motion.state);
-  }
-  return states;
-}
 
 RegimePoint of_orbit(const ChainSolver &solver, const PeriodicOrbit &orbit, long followed) {
   RegimePoint point;
@@ -245,33 +192,14 @@ RegimePoint of_orbit(const ChainSolver &solver, const PeriodicOrbit &orbit, long
 
 RegimePoint judge_regime(const ChainParameters &parameters, int cycles) {
   const ChainSolver solver(parameters);
-  ChainMotion motion = solver.start();
-  for (int stretch = 0; stretch < longest_transient; ++stretch) {
-    const std::vector<ChainState> states = last_states(solver, motion, cycles);
-    if (const auto orbit = reached_orbit(solver, states)) return of_orbit(solver, *orbit, motion.cycle);
-  }
-
-  // The motion is aperiodic, or approaches its orbit very slowly.
-  constexpr int lead = 20;
-  constexpr int rounds = 3;
-  constexpr double clearly =
-      0.02; // per cycle: slower growth is also that of a motion which leaves an unstable orbit
+  const auto settled = settle(ChainCycles{solver}, solver.start(), cycles);
+  if (settled.orbit) return of_orbit(solver, {*settled.orbit}, settled.followed);
   RegimePoint point;
-  long followed = motion.cycle;
-  ChainState state = motion.state;
-  for (int round = 0; round < rounds && point.regime == Regime::undecided; ++round) {
-    point.exponent = largest_exponent(solver, state, lead, (round + 1) * cycles);
-    motion = solver.start_at(state);
-    const std::vector<ChainState> states = last_states(solver, motion, 2 * longest_period + 1);
-    followed += lead + (round + 1) * cycles + motion.cycle;
-    if (const auto orbit = reached_orbit(solver, states)) return of_orbit(solver, *orbit, followed);
-    state = motion.state;
-    if (point.exponent.low > 0.0 && (point.exponent.mean > clearly || round + 1 == rounds))
-      point.regime = Regime::aperiodic;
-  }
-  point.followed = static_cast<int>(followed);
+  point.exponent = settled.exponent;
+  if (settled.aperiodic) point.regime = Regime::aperiodic;
+  point.followed = static_cast<int>(settled.followed);
   constexpr int window = 64;
-  point.meter = meter_values(solver, state, window);
+  point.meter = meter_values(solver, settled.state, window);
   return point;
 }
 

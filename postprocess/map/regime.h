@@ -51,12 +51,6 @@ struct RegimePoint {
   MeterValues meter;
 };
 
-/// The longest period that is looked for [cycles].
-constexpr int longest_period = 64;
-
-/// A motion without an orbit is followed for at most this many times the given number of cycles.
-constexpr int longest_transient = 40;
-
 /// Follows the chain from static equilibrium for `cycles` cycles, 100 or more, and determines the regime that
 /// it has reached. An orbit counts if Newton finds it near the last state, it is stable, and the motion has
 /// come nearer to it. A motion can be aperiodic for thousands of cycles before it falls into a stable orbit

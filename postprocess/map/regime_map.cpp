@@ -17,6 +17,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 const Range me_re_range = {1e-9, 1e12, "kg m"};
 const Range frequency_in_hertz = {1e-6, 1e8, "Hz"};
+const Range ratio_range = {1e-3, 1e3, ""};
 
 const ChainNumber *number_named(const std::string &name) {
   const auto *const found = std::find_if(chain_numbers.begin(), chain_numbers.end(),
@@ -26,7 +27,10 @@ const ChainNumber *number_named(const std::string &name) {
 
 const Range &range_of(const std::string &name) {
   const ChainNumber *number = number_named(name);
-  return number != nullptr ? number->range : name == "frequency" ? frequency_in_hertz : me_re_range;
+  return number != nullptr     ? number->range
+         : name == "frequency" ? frequency_in_hertz
+         : name == ratio_name  ? ratio_range
+                               : me_re_range;
 }
 
 } // namespace
@@ -61,8 +65,9 @@ MapAxis axis_from_text(const std::string &option, const std::string &text, int m
   axis.name = parts[0];
   if (parts.size() < 4 || parts.size() > 5 || (parts.size() == 5 && parts[4] != "log"))
     fail("NAME:FROM:TO:COUNT or NAME:FROM:TO:COUNT:log, e.g. k:1e6:200e6:100:log");
-  if (number_named(axis.name) == nullptr && axis.name != "frequency" && axis.name != "me_re")
-    fail("a NAME of k, D, omega, frequency, Fw, me_re, m2, m3, k23, c23");
+  if (number_named(axis.name) == nullptr && axis.name != "frequency" && axis.name != "me_re" &&
+      axis.name != ratio_name)
+    fail("a NAME of k, D, omega, frequency, Fw, me_re, m2, m3, k23, c23, and with --contacts ratio");
   axis.log = parts.size() == 5;
   double count = 0.0;
   try {
@@ -87,6 +92,7 @@ ChainParameters MapChain::with(const std::vector<std::pair<std::string, double>>
   ChainParameters parameters = base;
   std::optional<double> moment = me_re;
   for (const auto &[name, value] : values) {
+    if (name == ratio_name) continue;
     if (const ChainNumber *number = number_named(name))
       parameters.*number->value = value;
     else if (name == "frequency")

@@ -11,8 +11,12 @@
 
 namespace drumlin::post {
 
-/// An axis of a map: the number's name as in decks; frequency, omega/(2 pi) [Hz]; or me_re, the eccentric
-/// moment m_e r_e [kg m] with Fw = m_e r_e omega^2.
+/// The axis of a drum with two ends: stiffness and damping below its left half over those below its right
+/// one.
+constexpr const char *ratio_name = "ratio";
+
+/// An axis of a map: the number's name as in decks; ratio_name; frequency, omega/(2 pi) [Hz]; or me_re, the
+/// eccentric moment m_e r_e [kg m] with Fw = m_e r_e omega^2.
 struct MapAxis {
   std::string name;
   double from = 0.0;

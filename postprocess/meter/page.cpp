@@ -223,8 +223,12 @@ std::string meter_csv(const MeterResult &result) {
   header.insert(header.end(), {"mode", "stiffness"});
   const bool drives = !result.record.s.empty();
   if (drives) header.insert(header.end(), {"s_begin [m]", "s_end [m]", "pass"});
+  if (result.ends)
+    header.insert(header.end(), {"k_1_left_end [N/m]", "k_1_right_end [N/m]", "k_1_left_half [N/m]",
+                                 "k_1_right_half [N/m]", "c_1_left_half [N s/m]", "c_1_right_half [N s/m]"});
   std::string text = csv_line(header);
-  for (const MeterWindow &window : result.windows) {
+  for (std::size_t n = 0; n < result.windows.size(); ++n) {
+    const MeterWindow &window = result.windows[n];
     std::vector<std::string> cells;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const std::optional<double> value = columns[i].value(window);
@@ -234,6 +238,17 @@ std::string meter_csv(const MeterResult &result) {
     if (drives)
       cells.insert(cells.end(), {number_text(window.from.value_or(NAN)), number_text(window.to.value_or(NAN)),
                                  std::to_string(window.pass)});
+    const auto add = [&cells, n](const auto &sides, std::optional<double> MeterWindow::*value) {
+      for (const std::vector<MeterWindow> &side : sides) {
+        const std::optional<double> found = n < side.size() ? side[n].*value : std::nullopt;
+        cells.push_back(found ? number_text(*found) : std::string());
+      }
+    };
+    if (result.ends) {
+      add(result.ends->at_end, &MeterWindow::k_1);
+      add(result.ends->halves, &MeterWindow::k_1);
+      add(result.ends->halves, &MeterWindow::c_1);
+    }
     text += csv_line(cells);
   }
   return text;
@@ -385,6 +400,9 @@ void write_meter_page(const std::filesystem::path &folder, const MeterResult &re
   page.answer(source_words(result));
   for (const std::string &words : {width_words(result), smear_words(result)})
     if (!words.empty()) page.answer(words);
+  if (result.ends)
+    for (const std::string &line : answer_lines(*result.ends, result.windows.back()))
+      page.answer(line);
   if (!stiffness_valid(last) && last.k_B && !just_touches(last))
     page.answer(
         "The drum does not stay in contact, or its contact is not known: the stiffnesses are apparent.");

@@ -1,6 +1,7 @@
 // The files of meter values: CSV tables for machines, and a page with plots.
 #pragma once
 
+#include "meter/both_ends.h"
 #include "meter/values.h"
 
 #include <filesystem>
@@ -15,9 +16,12 @@ struct MeterResult {
   MeterRecord cycles;
   MeterOptions options;
   std::vector<MeterWindow> windows;
+  std::optional<BothEnds> ends{}; ///< of a record of both ends of the drum
 };
 
-/// meter.csv: a row for each window, units in the header, an empty cell where a value cannot be computed.
+/// meter.csv: a row for each window, units in the header, an empty cell where a value cannot be computed. A
+/// record of both ends has more columns behind these: k_1 of a meter at either end, k_1 and c_1 below each
+/// half.
 std::string meter_csv(const MeterResult &result);
 
 /// What the values come from and how exact that is, as a sentence.

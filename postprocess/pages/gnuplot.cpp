@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The part of gnuplot's plot command after `using x:y`, for each style in its order.
-constexpr std::array<const char *, 40> styles = {{
+constexpr std::array<const char *, 43> styles = {{
     "with lines lw 2.4 dt (12,6) lc rgb '#D55E00'",                            // condition_a
     "with lines lw 2.2 dt solid lc rgb '#0072B2'",                             // condition_b
     "with points pt 6 ps 0.75 lw 1.1 lc rgb '#000000'",                        // direct_a
@@ -57,6 +57,9 @@ constexpr std::array<const char *, 40> styles = {{
     "with boxxyerror lc rgb '#009E73' fill pattern 2 noborder",                // area_4
     "with boxxyerror lc rgb '#8A3B00' fill solid noborder",                    // area_5
     "with boxxyerror lc rgb '#000000' fill pattern 6 noborder",                // area_6
+    "with boxxyerror lc rgb '#CC79A7' fill solid noborder",                    // area_7
+    "with boxxyerror lc rgb '#0072B2' fill pattern 5 noborder",                // area_8
+    "with boxxyerror lc rgb '#bbbbbb' fill solid noborder",                    // area_9
     "with points pt 7 ps 0.22 lc rgb '#0072B2'",                               // dots_up
     "with points pt 6 ps 0.5 lw 0.6 lc rgb '#D55E00'",                         // dots_down
     "with points pt 7 ps 0.4 lc rgb '#000000'",                                // mark_1

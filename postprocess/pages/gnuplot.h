@@ -39,12 +39,15 @@ enum class CurveStyle {
   discs_4,
   circles, ///< the same as outlines, black; y names ordinate and radius
   cells,   ///< rectangles coloured by value; y: ordinate, left, right, bottom, top, value, as "2:3:4:5:6:7"
-  area_1,  ///< area_1 to area_6: rectangles as `cells`, without value, of a colour and a hatch or grey each
+  area_1,  ///< area_1 to area_9: rectangles as `cells`, without value, of a colour and a hatch or grey each
   area_2,
   area_3,
   area_4,
   area_5,
   area_6,
+  area_7,
+  area_8,
+  area_9,
   dots_up,     ///< small filled circles, blue
   dots_down,   ///< small open circles, vermilion
   mark_1,      ///< small filled circles, black: points of a boundary

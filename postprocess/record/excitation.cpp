@@ -647,8 +647,9 @@ void undo_logger_filter(Record &record, const LoggerFilter &filter) {
   record.logger_filter = filter;
   record.logged_drum = record.a_drum;
   record.logged_frame = record.a_frame;
-  for (const auto values : {&Record::x_drum, &Record::v_drum, &Record::a_drum, &Record::x_frame,
-                            &Record::v_frame, &Record::a_frame, &Record::F_contact})
+  for (const auto values :
+       {&Record::x_drum, &Record::v_drum, &Record::a_drum, &Record::x_frame, &Record::v_frame,
+        &Record::a_frame, &Record::F_contact, &Record::a_left, &Record::a_right})
     record.*values = restored(record.*values, record.interval, filter);
   record.notes.push_back(
       fmt::format("what the logger's filter has taken is given back up to {:.4g} Hz", whole));
@@ -711,27 +712,31 @@ void take_flights(Record &record, const RecordOptions &options) {
 
 } // namespace
 
-void compute_frame(Record &record) {
-  if (record.pieces.empty() || record.a_drum.empty() || !record.a_frame.empty() || !record.omega ||
-      !record.m3 || !record.bond)
-    return;
-  // The extension of the bond without its static part, and its rate. The drum's acceleration is linear
+std::array<std::vector<double>, 2> through_bond(const Record &record,
+                                                const std::array<std::vector<double>, 2> &foot,
+                                                const Eigen::Matrix2d &spring,
+                                                const Eigen::Matrix2d &dashpot) {
+  // The extension of the bond without its static part, and its rate. The foot's acceleration is linear
   // between samples; one step of Runge and Kutta for each.
-  const double spring = record.bond->stiffness / *record.m3, dashpot = record.bond->damping / *record.m3;
-  using Extension = std::array<double, 2>;
-  const auto rate = [spring, dashpot](const Extension &w, double a) {
-    return Extension{w[1], a - spring * w[0] - dashpot * w[1]};
+  struct Extension {
+    Eigen::Vector2d w, rate;
   };
-  const auto moved = [](const Extension &w, const Extension &by, double h) {
-    return Extension{w[0] + h * by[0], w[1] + h * by[1]};
+  const auto rate = [&spring, &dashpot](const Extension &e, const Eigen::Vector2d &a) {
+    return Extension{e.rate, a - spring * e.w - dashpot * e.rate};
+  };
+  const auto moved = [](const Extension &e, const Extension &by, double h) {
+    return Extension{e.w + h * by.w, e.rate + h * by.rate};
   };
   const double h = record.interval;
-  const auto step = [&](const Extension &w, double from, double to) {
-    const double middle = 0.5 * (from + to);
-    const Extension k1 = rate(w, from), k2 = rate(moved(w, k1, 0.5 * h), middle),
-                    k3 = rate(moved(w, k2, 0.5 * h), middle), k4 = rate(moved(w, k3, h), to);
-    return Extension{w[0] + h / 6.0 * (k1[0] + 2.0 * k2[0] + 2.0 * k3[0] + k4[0]),
-                     w[1] + h / 6.0 * (k1[1] + 2.0 * k2[1] + 2.0 * k3[1] + k4[1])};
+  const auto step = [&](const Extension &e, const Eigen::Vector2d &from, const Eigen::Vector2d &to) {
+    const Eigen::Vector2d middle = 0.5 * (from + to);
+    const Extension k1 = rate(e, from), k2 = rate(moved(e, k1, 0.5 * h), middle),
+                    k3 = rate(moved(e, k2, 0.5 * h), middle), k4 = rate(moved(e, k3, h), to);
+    return Extension{e.w + h / 6.0 * (k1.w + 2.0 * k2.w + 2.0 * k3.w + k4.w),
+                     e.rate + h / 6.0 * (k1.rate + 2.0 * k2.rate + 2.0 * k3.rate + k4.rate)};
+  };
+  const auto at = [&foot](std::size_t i) {
+    return Eigen::Vector2d(foot[0][i], foot[1].empty() ? 0.0 : foot[1][i]);
   };
   // The first cycles several times, after which it moves as if it had always done so.
   constexpr double pairs = 30.0;
@@ -739,15 +744,28 @@ void compute_frame(Record &record) {
   const double cycles = 2.0 * std::min(pairs, std::floor(0.5 * record.cycles()));
   const auto first =
       std::min(record.size() - 1, static_cast<std::size_t>(std::lround(cycles * record.period() / h)));
-  Extension w{0.0, 0.0};
+  Extension e{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   for (int n = 0; n < repeats; ++n)
     for (std::size_t i = 0; i < first; ++i)
-      w = step(w, record.a_drum[i], record.a_drum[i + 1]);
-  record.a_frame.reserve(record.size());
+      e = step(e, at(i), at(i + 1));
+  std::array<std::vector<double>, 2> mass;
   for (std::size_t i = 0; i < record.size(); ++i) {
-    record.a_frame.push_back(spring * w[0] + dashpot * w[1]);
-    if (i + 1 < record.size()) w = step(w, record.a_drum[i], record.a_drum[i + 1]);
+    const Eigen::Vector2d a = spring * e.w + dashpot * e.rate;
+    for (std::size_t part = 0; part < mass.size(); ++part)
+      mass[part].push_back(a[static_cast<Eigen::Index>(part)]);
+    if (i + 1 < record.size()) e = step(e, at(i), at(i + 1));
   }
+  return mass;
+}
+
+void compute_frame(Record &record) {
+  if (record.pieces.empty() || record.a_drum.empty() || !record.a_frame.empty() || !record.omega ||
+      !record.m3 || !record.bond)
+    return;
+  Eigen::Matrix2d spring = Eigen::Matrix2d::Zero(), dashpot = Eigen::Matrix2d::Zero();
+  spring(0, 0) = record.bond->stiffness / *record.m3;
+  dashpot(0, 0) = record.bond->damping / *record.m3;
+  record.a_frame = through_bond(record, {record.a_drum, {}}, spring, dashpot)[0];
   record.frame_computed = true;
   record.notes.push_back(
       fmt::format("no acceleration of the frame: it is computed from that of the drum through the bond of "
@@ -760,18 +778,22 @@ void settle_excitation(Record &record, const RecordOptions &options) {
   if (record.time.empty() || !options.omega || record.excitation_read || record.pieces.empty()) return;
   check_range(record, record.a_drum, "a_drum");
   check_range(record, record.a_frame, "a_frame");
+  check_range(record, record.a_left, "a_left");
+  check_range(record, record.a_right, "a_right");
   if (record.pulse.empty())
     take_frequency(record);
   else
     take_pulses(record, options);
   if (options.logger_filter) undo_logger_filter(record, *options.logger_filter);
   if (options.corner)
-    for (std::vector<double> *values :
-         {&record.a_drum, &record.a_frame, &record.logged_drum, &record.logged_frame})
+    for (std::vector<double> *values : {&record.a_drum, &record.a_frame, &record.logged_drum,
+                                        &record.logged_frame, &record.a_left, &record.a_right})
       if (!values->empty())
         *values = without_high_pass(*values, record.interval, *options.corner, *record.omega);
   remove_offset(record, &Record::a_drum, "a_drum");
   remove_offset(record, &Record::a_frame, "a_frame");
+  remove_offset(record, &Record::a_left, "a_left");
+  remove_offset(record, &Record::a_right, "a_right");
   compute_frame(record);
   if (options.me_re) record.Fw = *options.me_re * *record.omega * *record.omega;
   take_flights(record, options);

@@ -5,6 +5,9 @@
 #include "record/record.h"
 #include "support/statistics.h"
 
+#include <Eigen/Core>
+
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -44,6 +47,14 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio = 1.0);
 /// the bond: the frame is a mass on a spring and a dashpot whose foot moves with the drum. What swings freely
 /// at the start has died away. Needs omega, m3 and the bond.
 void compute_frame(Record &record);
+
+/// The accelerations of a mass, of its height and its tilt, on a bond whose foot has the accelerations
+/// `foot`, sample by sample. \param foot the tilt's may be empty: 0 \param spring a row for each, over its
+/// mass or inertia \param dashpot the same
+std::array<std::vector<double>, 2> through_bond(const Record &record,
+                                                const std::array<std::vector<double>, 2> &foot,
+                                                const Eigen::Matrix2d &spring,
+                                                const Eigen::Matrix2d &dashpot);
 
 /// Refuses a record of which no flights and no pulses tell the exciter's phase if the phase of the drum's
 /// motion wanders by more than a steady frequency explains; std::runtime_error of one line.

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <deque>
 #include <iterator>
 #include <limits>
@@ -29,11 +30,15 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The signals that are read: all columns from x_drum, the second, to F_excitation.
+/// The signals that are read: all columns from x_drum, the second, to F_excitation, and the sensors at both
+/// ends of the drum.
 constexpr auto record_signals = [] {
-  std::array<HistoryColumn, 8> signals{};
-  for (std::size_t i = 0; i < signals.size(); ++i)
+  constexpr std::size_t of_middle = 8, a_left = 16;
+  std::array<HistoryColumn, of_middle + 2> signals{};
+  for (std::size_t i = 0; i < of_middle; ++i)
     signals[i] = history_columns[i + 1];
+  signals[of_middle] = history_columns[a_left];
+  signals[of_middle + 1] = history_columns[a_left + 1];
   return signals;
 }();
 
@@ -163,7 +168,33 @@ void take_parameters(Record &record) {
           fmt::format("{}: {}", file.string(), refusal(name, *value, "numbers above 0")));
 }
 
+/// How the drum of a run with both ends tilts, from its parameters.csv; nothing of others.
+std::optional<TwoEnds> ends_of(const Record &record) {
+  const fs::path file = record.file.parent_path() / "parameters.csv";
+  TwoEnds ends;
+  std::optional<double> width, drum_inertia, frame_inertia, exciter, sensor;
+  for (const auto &[name, value] :
+       {std::pair{"width", &width}, std::pair{"drum_inertia", &drum_inertia},
+        std::pair{"frame_inertia", &frame_inertia}, std::pair{"exciter_place", &exciter},
+        std::pair{"sensor_distance", &sensor}})
+    take_number(record, file, name, *value);
+  if (!width || !drum_inertia || !frame_inertia || !sensor) return std::nullopt;
+  ends.drum_inertia = *drum_inertia;
+  ends.frame_inertia = *frame_inertia;
+  ends.exciter = exciter.value_or(0.0);
+  ends.sensor = *sensor;
+  ends.contacts = equal_contacts(2, *width, 0.0, 0.0);
+  for (const auto &[name, value] : record.parameters) {
+    AxleLink bond;
+    if (name.rfind("bond_", 0) == 0 &&
+        std::sscanf(value.c_str(), "y %lf m, k %lf N/m, c %lf N s/m", &bond.y, &bond.k, &bond.c) == 3)
+      ends.bonds.push_back(bond);
+  }
+  return ends.bonds.empty() ? std::nullopt : std::optional(ends);
+}
+
 void take_options(Record &record, const RecordOptions &options) {
+  record.ends = options.ends ? options.ends : ends_of(record);
   if (options.omega) record.omega = options.omega;
   if (options.phase) record.phase = options.phase;
   if (options.Fw) record.Fw = options.Fw;
@@ -507,6 +538,20 @@ void check_derivative(const Reading &reading, std::vector<double> ChainHistory::
                    "the unit and the sign of that derivative");
 }
 
+/// Takes the mean of both ends for the middle of the drum if this has no sensor of its own.
+void take_middle(const Reading &reading, Record &record) {
+  if (record.a_left.empty() && record.a_right.empty()) return;
+  for (const auto values : {&Record::a_left, &Record::a_right})
+    if ((record.*values).empty())
+      csv_fault(record.file, 0, {},
+                refusal(values == &Record::a_left ? "a_left" : "a_right", "",
+                        "sensors at both ends of the drum; a single one is a_drum"));
+  if (!record.a_drum.empty()) return;
+  for (std::size_t i = 0; i < record.size(); ++i)
+    record.a_drum.push_back(0.5 * (record.a_left[i] + record.a_right[i]));
+  check_derivative(reading, &Record::v_drum, &Record::a_drum);
+}
+
 /// Refuses a contact force without contact, or of another sign or unit.
 void check_contact_force(const Reading &reading) {
   const Record &record = reading.record;
@@ -741,6 +786,7 @@ Record read_record(const std::vector<fs::path> &files, const RecordOptions &opti
   take_piece(reading, options);
   take_times(reading, options);
   if (!options.delays.empty()) undo_delays(record, options.delays);
+  take_middle(reading, record);
   check_length(record);
   check_derivative(reading, &Record::x_drum, &Record::v_drum);
   check_derivative(reading, &Record::v_drum, &Record::a_drum);

@@ -4,6 +4,7 @@
 // the file, the line or column, the value and what is allowed.
 #pragma once
 
+#include "chain/two_ends.h"
 #include "runs/chain_files.h"
 #include "support/measured_table.h"
 
@@ -89,6 +90,12 @@ struct Record : ChainHistory {
   /// logged.
   std::optional<LoggerFilter> logger_filter;
   std::vector<double> logged_drum, logged_frame;
+  /// How the machine tilts, with a contact below each half of the drum, whose k and c are not known; not
+  /// given: nothing says it.
+  std::optional<TwoEnds> ends;
+
+  /// Whether both ends of the drum were measured.
+  bool two_sided() const { return !a_left.empty() && !a_right.empty(); }
 
   /// Time of one cycle of the excitation [s]; std::runtime_error if `omega` is not known.
   double period() const;
@@ -137,6 +144,7 @@ struct RecordOptions {
   MachineTolerances tolerances;   ///< of m2, m3 and me_re
   std::optional<KnownBond> bond;  ///< of drum and frame
   std::optional<LoggerFilter> logger_filter;
+  std::optional<TwoEnds> ends; ///< as Record has it; not given: what the run says
 };
 
 /// The least number of excitation cycles, and of samples per cycle, of a record that is read with `omega`
@@ -153,6 +161,8 @@ constexpr int least_samples = 8;
 /// - Several measured files are one record: each continues the one before it.
 /// - A measured file is divided where cells are blank or times have a gap; one piece is read. Clock times
 /// count from the first row.
+/// - a_left and a_right are the accelerations at both ends of the drum; a_drum is their mean if the file has
+/// none.
 /// - If the file has no F_excitation but omega, phase and Fw are known, F_excitation is computed.
 /// Refused are: values that are no finite numbers; of a run, gaps; a column of time that does not grow or has
 /// unequal steps; a signal that is not the derivative of another by a factor of 2 or more or by its sign; a

@@ -63,6 +63,66 @@ protected:
   Scratch scratch_;
 };
 
+// Soil of 24 and 16 MN/m below the halves of a drum whose ends lift off: from the folder of the run, and from
+// a measured file of three accelerations with a roller.
+TEST_F(IdentifyCommand, TellsTheSoilBelowEachHalf) {
+  post::write_files(
+      {{scratch_ / "soil.csv", "y (m),k (N/m),c (N s/m)\n-0.6148,24e6,6e4\n0.6148,16e6,5e4\n"}});
+  const std::string axas = (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers/Axas2020").string();
+  well(run_program({DRUMLIN_TOOLS, "exact", "--roller", axas, "--contacts", "soil.csv", "--cycles", "60",
+                    "--samples-per-cycle", "50", "--out", "run"},
+                   {}, scratch_.path(), 100.0));
+  const post::Table run = post::read_table(scratch_ / "run/chain.csv");
+  std::string measured = "t,L,R,F\n";
+  for (std::size_t i = 1000; i < run.rows(); ++i) {
+    std::vector<std::string> cells;
+    for (const char *column : {"time", "a_left", "a_right", "a_frame"})
+      cells.push_back(run.text(column)[i]);
+    measured += post::csv_line(cells);
+  }
+  post::write_files({{scratch_ / "two.csv", measured}});
+  const std::vector<std::string> sensors = {"--column", "time=t",   "--column",
+                                            "a_left=L", "--column", "a_right=R"};
+  const auto with = [](std::vector<std::string> words, const std::vector<std::string> &more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const std::vector<std::string> roller_said = {"--roller", axas, "--phase", "0"};
+  const std::vector<std::string> file = with({"two.csv"}, sensors);
+  for (const auto &words : {std::vector<std::string>{"run"}, with(file, roller_said),
+                            with(with(file, roller_said), {"--column", "a_frame=F"})}) {
+    SCOPED_TRACE(words.size());
+    const Outcome outcome = well(identify(with(words, {"--out", "found"})));
+    EXPECT_TRUE(printed(outcome, "left half: k = "));
+    const post::Table table = post::read_table(scratch_ / "found/identify.csv");
+    EXPECT_EQ(table.text("half"), (std::vector<std::string>{"left", "right", "both"}));
+    const std::vector<double> k = table.numbers("k [N/m]");
+    EXPECT_NEAR(k[0], 24e6, 2e-4 * 24e6);
+    EXPECT_NEAR(k[1], 16e6, 2e-4 * 16e6);
+    EXPECT_NEAR(k[2], 40e6, 2e-4 * 40e6);
+    EXPECT_NEAR(post::number_from_text(table.text("c [N s/m]")[0]), 6e4, 1e-3 * 6e4);
+    EXPECT_NEAR(post::number_from_text(table.text("left over right [-]")[2]), 1.5, 3e-4);
+    for (const char *made : {"index.html", "data/halves.csv", "figures/halves.png"})
+      EXPECT_TRUE(fs::is_regular_file(scratch_ / "found" / made)) << made;
+  }
+  const std::vector<std::string> out = {"--out", "results"};
+  const std::vector<std::string> plain = {"--frequency", "29",   "--me-re", "7.31", "--m2",     "3962.07",
+                                          "--m3",        "3379", "--phase", "0",    "--column", "a_frame=F"};
+  expect_refused(with(with(file, plain), out), "two.csv: drum_inertia is ''; allowed: --roller with a file");
+  expect_refused(with(with({"two.csv", "--column", "time=t", "--column", "a_left=L"}, roller_said), out),
+                 "two.csv: a_right is ''; allowed: sensors at both ends of the drum");
+  expect_refused(with(with(file, roller_said), with({"--compare"}, out)),
+                 "--compare is ''; allowed: not given for a record of both ends");
+  expect_refused(with(with(file, roller_said), with({"--logger-low-pass", "200,4"}, out)),
+                 "--logger-low-pass is '200,4'; allowed: not given for a record of both ends");
+  // Sensors that are mixed up, or one that is turned: no motion of this machine.
+  expect_refused(
+      with(with({"two.csv", "--column", "time=t", "--column", "a_left=L", "--column", "a_right=R:-m/s2"},
+                roller_said),
+           out),
+      "");
+}
+
 TEST_F(IdentifyCommand, WritesAnswerTableAndPage) {
   write_run(scratch_ / "run");
   const Outcome outcome = well(identify({"run", "--window", "6", "--out", "found"}));

@@ -112,7 +112,21 @@ TEST_F(MeterCommand, AtOneEndOfADrumThatTiltsShowsTheSoilOfThatEnd) {
     const Table table = read_table(folder_ / "results/meter/meter.csv");
     EXPECT_NEAR(1e-6 * table.numbers("k_1 [N/m]").back(), stiffness, 5e-3) << sensor;
     EXPECT_EQ(table.text("mode").back(), "continuous contact");
+    EXPECT_FALSE(table.has("k_1_left_half [N/m]"));
   }
+  // Both together tell the soil below each half.
+  const Outcome both = well(meter({"run"}));
+  EXPECT_TRUE(printed(both, "left end shows k_1 = 18.29 MN/m, one in the middle 14.97 MN/m, one at the right "
+                            "end 11.73 MN/m"));
+  EXPECT_TRUE(printed(both, "9 MN/m below the left half, 6 MN/m below the right one, ratio 1.5"));
+  const Table table = read_table(folder_ / "results/meter/meter.csv");
+  const auto last = [&table](const char *column) { return table.numbers(column).back(); };
+  EXPECT_NEAR(last("k_1_left_end [N/m]"), 18.29e6, 5e3);
+  EXPECT_NEAR(last("k_1_right_end [N/m]"), 11.73e6, 5e3);
+  EXPECT_NEAR(last("k_1_left_half [N/m]"), 9e6, 90.0);
+  EXPECT_NEAR(last("k_1_right_half [N/m]"), 6e6, 60.0);
+  EXPECT_NEAR(last("c_1_left_half [N s/m]"), 0.6 * c, 1e-5 * c);
+  EXPECT_NEAR(last("c_1_right_half [N s/m]"), 0.4 * c, 1e-5 * c);
 }
 
 TEST_F(MeterCommand, OfARunTakesTheDrumsSizeAlone) {

@@ -1,0 +1,190 @@
+#include "identify/two_sided.h"
+
+#include "record/both_ends.h"
+#include "record/excitation.h"
+#include "support/csv.h"
+#include "support/range.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr std::array<const char *, 2> half_names = {"left", "right"};
+
+/// Single contacts of each half.
+std::array<HalfStart, 2> single_contacts(const Record &record, const RecordSetting &setting,
+                                         const DrumSignals &whole, double phase_within) {
+  constexpr double usual_share = 0.2; // soil that a drum just touches is softer
+  IdentificationSetting law;
+  law.m2 = 0.5 * *record.m2;
+  law.known_origin = false;
+  law.phase_within = phase_within;
+  law.least_force = setting.least_force.value_or(usual_share);
+  std::array<HalfSignals, 2> halves = half_signals(record);
+  std::array<HalfStart, 2> found;
+  for (std::size_t half = 0; half < halves.size(); ++half) {
+    DrumSignals signals;
+    signals.dt = whole.dt;
+    signals.per_cycle = whole.per_cycle;
+    signals.a_drum = halves[half].acceleration;
+    signals.force = std::move(halves[half].force);
+    for (const auto values : {&DrumSignals::excitation, &DrumSignals::quadrature})
+      for (const double force : whole.*values)
+        (signals.*values).push_back(halves[half].of_exciter * force);
+    try {
+      found[half].contact = identify(signals, law);
+    } catch (const std::runtime_error &error) {
+      csv_fault(record.file, 0, {}, fmt::format("{} half: {}", half_names[half], error.what()));
+    }
+    found[half].acceleration = std::move(halves[half].acceleration);
+  }
+  return found;
+}
+
+/// What the whole motion says, from the contacts or, if they are far off, from a softer or harder soil.
+std::optional<MotionFit> follow_both(const Record &record, const std::array<HalfStart, 2> &contacts,
+                                     const MotionSetting &setting) {
+  std::optional<MotionFit> best;
+  for (const double factor : {1.0, 0.75, 1.35}) {
+    std::array<HalfStart, 2> start = contacts;
+    for (HalfStart &half : start) {
+      half.contact.law.k.mean *= factor;
+      for (double &x : half.contact.x)
+        x /= factor;
+    }
+    const std::optional<MotionFit> fit = fit_motion(record, start, setting);
+    if (fit && fit->is_noise) return fit;
+    if (fit && (!best || fit->residual < best->residual)) best = fit;
+  }
+  return best;
+}
+
+/// In unbroken contact a phase fits as well as another, up to that at which contact would just be lost. A fit
+/// that ends there takes its phase for well known. Where the ends of the interval in which the phase is known
+/// fit as well, the intervals contain what they give, too.
+void widen_by_phase(const Record &record, const std::array<HalfStart, 2> &contacts, double phase_within,
+                    MotionFit &motion) {
+  if (!(motion.phase.half_width < 0.5 * phase_within)) return;
+  const double as_good = (1.0 + 20.0 / static_cast<double>(record.size())) * motion.residual;
+  const std::vector<ContactFit> found = motion.contacts;
+  for (const double side : {-1.0, 1.0}) {
+    constexpr double held = 1e-4; // rad
+    Record other = record;
+    other.phase = *record.phase + side * phase_within;
+    const std::optional<MotionFit> fit = fit_motion(other, contacts, {held});
+    if (!fit || fit->residual > as_good) continue;
+    motion.phase.half_width =
+        std::max(motion.phase.half_width, std::fabs(fit->phase.mean - motion.phase.mean));
+    for (std::size_t half = 0; half < found.size(); ++half)
+      for (const auto value : {&ContactFit::k, &ContactFit::c}) {
+        MeanInterval &wider = motion.contacts[half].*value;
+        wider.half_width = std::max(wider.half_width,
+                                    std::fabs((fit->contacts[half].*value).mean - (found[half].*value).mean));
+      }
+  }
+}
+
+double rms(const std::vector<double> &values) {
+  double squares = 0.0;
+  for (const double value : values)
+    squares += value * value;
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+[[noreturn]] void refuse(const Record &record, const std::string &what, const std::string &found,
+                         const std::string &allowed) {
+  csv_fault(record.file, 0, {}, refusal(what, found, allowed));
+}
+
+constexpr const char *causes =
+    "masses, inertia, places of bonds and sensors, eccentric moment, phase, a sign or a unit of an "
+    "acceleration";
+
+void check(const Record &record, const TwoSidedRecord &found) {
+  for (std::size_t half = 0; half < half_names.size(); ++half) {
+    const HalfLaw &law = found.halves[half];
+    if (!(law.k.half_width < law.k.mean))
+      refuse(record, fmt::format("k of the {} half", half_names[half]),
+             fmt::format("{:.4g} +- {:.2g} N/m", law.k.mean, law.k.half_width),
+             fmt::format("an interval that says something; to be checked: {}", causes));
+    if (law.c.mean + law.c.half_width < 0.0)
+      refuse(record, fmt::format("c of the {} half", half_names[half]),
+             fmt::format("{:.4g} +- {:.2g} N s/m", law.c.mean, law.c.half_width),
+             fmt::format("0 or more: no soil drives the drum; to be checked: {}", causes));
+  }
+}
+
+} // namespace
+
+TwoSidedRecord identify_two_sided(const Record &record, const RecordSetting &setting,
+                                  const std::function<void(const std::string &)> &progress) {
+  if (const std::string missing = missing_for_halves(record); !missing.empty())
+    csv_fault(record.file, 0, {}, missing);
+  if (record.F_excitation.empty()) refuse_drift(record);
+  TwoSidedRecord result;
+  result.file = record.file;
+  result.cycles = record.cycles();
+  result.frame_computed = record.frame_computed;
+  const DrumSignals whole = signals_of(record, true);
+  const double phase_within =
+      std::max({setting.phase_within, record.phase_within, 1.5 * record.phase_half_width});
+  if (progress) progress("the contacts of each half");
+  const std::array<HalfStart, 2> contacts = single_contacts(record, setting, whole, phase_within);
+  MotionSetting of_phase;
+  if (record.phase_half_width == 0.0) of_phase.phase_within = phase_within;
+  if (progress) progress("the motion from contact to contact");
+  std::optional<MotionFit> motion = follow_both(record, contacts, of_phase);
+  if (motion && of_phase.phase_within) widen_by_phase(record, contacts, *of_phase.phase_within, *motion);
+  constexpr double close = 0.05, as_noise = 1e-4; // of the drum's acceleration
+  const double left = motion ? motion->residual / rms(record.a_left) : 1.0;
+  if (!motion || (!motion->is_noise && left > close))
+    refuse(record, "what the equations of motion of drum, frame, bond and a soil below each half leave",
+           motion ? fmt::format("{:.3g} % of the drum's acceleration", 100.0 * left) : std::string("all"),
+           fmt::format("up to {:g} %; to be checked: {}", 100.0 * close, causes));
+  result.motion = *motion;
+  result.left = left;
+  result.frequency = motion->omega.mean / (2.0 * 3.14159265358979323846);
+  // If more than noise is left, the interval contains what single contacts say, too.
+  const auto taken = [&](const MeanInterval &of_motion, const MeanInterval &of_contacts) {
+    const bool noise = motion->is_noise || left < as_noise;
+    return MeanInterval{of_motion.mean,
+                        std::hypot(of_motion.half_width, noise ? 0.0 : of_contacts.mean - of_motion.mean)};
+  };
+  for (std::size_t half = 0; half < result.halves.size(); ++half) {
+    HalfLaw &law = result.halves[half];
+    const ContactFit &fit = motion->contacts[half];
+    law.contact = contacts[half].contact;
+    const std::vector<double> &force = law.contact.force;
+    constexpr double touching = 0.02; // of the largest force
+    const double least = touching * *std::max_element(force.begin(), force.end());
+    law.contact_share = static_cast<double>(std::count_if(force.begin(), force.end(),
+                                                          [least](double f) { return f > least; })) /
+                        static_cast<double>(force.size());
+    law.k = taken(fit.k, law.contact.law.k);
+    law.c = taken(fit.c, law.contact.law.c);
+    const double to_D = 1.0 / (2.0 * std::sqrt(0.5 * *record.m2 * law.k.mean));
+    const double of_k = 0.5 * law.c.mean / law.k.mean * law.k.half_width;
+    law.D = {law.c.mean * to_D,
+             to_D * std::sqrt(std::max(0.0, law.c.half_width * law.c.half_width + of_k * of_k -
+                                                2.0 * fit.correlation * of_k * law.c.half_width))};
+  }
+  const MeanInterval &k_left = result.halves[0].k, &k_right = result.halves[1].k;
+  const auto together = [&](double of_left, double of_right) {
+    const double l = of_left * k_left.half_width, r = of_right * k_right.half_width;
+    return std::sqrt(std::max(0.0, l * l + r * r + 2.0 * motion->k_together * l * r));
+  };
+  result.k = {k_left.mean + k_right.mean, together(1.0, 1.0)};
+  result.ratio = {k_left.mean / k_right.mean,
+                  together(1.0 / k_right.mean, -k_left.mean / (k_right.mean * k_right.mean))};
+  check(record, result);
+  return result;
+}
+
+} // namespace drumlin::post

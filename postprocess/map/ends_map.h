@@ -1,0 +1,52 @@
+// Motions of a drum with two ends over two numbers of it, and along one.
+#pragma once
+
+#include "map/ends.h"
+#include "map/figures.h"
+#include "map/regime_map.h"
+
+#include <functional>
+#include <vector>
+
+namespace drumlin::post {
+
+/// The drum on equal contacts that share k and D of the chain, those left of the middle as much stiffer and
+/// more damped than those right of it as the axis `ratio` says.
+struct EndsFamily {
+  MapChain chain;
+  Roller roller; ///< how it tilts: see two_ends()
+  int contacts = 2;
+
+  /// With the numbers set by axes. At rest the drum is tilted by 1e-5 rad besides its equilibrium, so that a
+  /// motion that is not stable against tilting does not last.
+  TwoEnds at(const std::vector<std::pair<std::string, double>> &values) const;
+};
+
+/// The points of a map in its order, by several threads. \param progress gets the number of those that are
+/// done
+std::vector<EndsPoint> judge_map(const EndsFamily &family, const MapGrid &grid, int threads,
+                                 const std::function<void(std::size_t)> &progress);
+
+/// Where unbroken contact ends, between neighbours of the grid.
+std::vector<BoundaryPoint> ends_boundaries(const EndsFamily &family, const MapGrid &grid);
+
+/// A motion along an axis, with the mode that it has there.
+struct EndsSample {
+  bool up = true;
+  double value = 0.0;
+  EndsPoint point;
+};
+
+/// Follows the motion from one value to the next, up and then down; each value starts from the motion at the
+/// value before, tilted by 1e-6 rad more.
+std::vector<EndsSample> sweep_ends(const EndsFamily &family, const MapAxis &axis, int cycles,
+                                   const std::function<void(double)> &progress);
+
+/// modes, tilt and contact shares over the axes.
+MapFigures ends_figures(const MapGrid &grid, const std::vector<EndsPoint> &points,
+                        const std::vector<BoundaryPoint> &boundaries);
+/// Tilt over the axis, up and down.
+MapFigures ends_sweep_figures(const MapChain &chain, const MapAxis &axis,
+                              const std::vector<EndsSample> &samples);
+
+} // namespace drumlin::post

@@ -1,0 +1,242 @@
+// Periodic motions of a system that is excited in cycles, and whether a motion settles to one: for the chain
+// (map/orbits.h) and for a drum with two ends (map/ends.h), whose states have other sizes.
+//
+// A System has the types State, Matrix and Passage (with `end` and `jacobian`), a Motion with `state` at the
+// start of a cycle and the number `cycle` of those completed, and
+//     Passage pass(state, cycles, with_jacobian)    from the start of a cycle
+//     State scale()                                 by which differences of states are divided
+//     Motion start_at(state)
+//     void advance(motion, tangent)                 over a cycle, with a small difference unless nullptr
+#pragma once
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace drumlin::post {
+
+/// The longest period that is looked for [cycles].
+constexpr int longest_period = 64;
+
+/// A motion without an orbit is followed for at most this many times the given number of cycles.
+constexpr int longest_transient = 40;
+
+/// An exponential rate with its 95 % confidence interval, per cycle.
+struct Exponent {
+  double mean = 0.0, low = 0.0, high = 0.0;
+};
+
+/// A motion that repeats itself after `period` cycles.
+template <class System>
+struct OrbitOf {
+  static constexpr int size = System::State::RowsAtCompileTime;
+  int period = 1;
+  typename System::State state = System::State::Zero(); ///< at the start of a cycle
+  typename System::Passage passage;                     ///< over the period, with Jacobian
+  std::array<std::complex<double>, static_cast<std::size_t>(size)>
+      multipliers{};     ///< Floquet multipliers, largest modulus first
+  double residual = 0.0; ///< |end - state| in units of the scale
+  bool stable() const { return std::abs(multipliers[0]) < 1.0; }
+};
+
+/// Eigenvalues of a monodromy matrix, largest modulus first.
+template <int size>
+std::array<std::complex<double>, static_cast<std::size_t>(size)>
+floquet_multipliers(const Eigen::Matrix<double, size, size> &monodromy) {
+  const Eigen::EigenSolver<Eigen::Matrix<double, size, size>> solver(monodromy, false);
+  std::array<std::complex<double>, static_cast<std::size_t>(size)> values{};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = solver.eigenvalues()[static_cast<Eigen::Index>(i)];
+  std::sort(values.begin(), values.end(),
+            [](const auto &a, const auto &b) { return std::abs(a) > std::abs(b); });
+  return values;
+}
+
+template <class State>
+double scaled_distance(const State &a, const State &b, const State &scale) {
+  return (a - b).cwiseQuotient(scale).norm();
+}
+
+/// Solves for an orbit by Newton's method, from a guess. No value if the residual does not become less than
+/// 1e-11, or if the state exceeds 1e3 times the scale.
+template <class System>
+std::optional<OrbitOf<System>> newton_orbit(const System &system, const typename System::State &guess,
+                                            int period) {
+  using State = typename System::State;
+  using Matrix = typename System::Matrix;
+  constexpr int most_iterations = 40;
+  constexpr double converged = 1e-11;
+  constexpr double lost = 1e3;
+  const State scale = system.scale();
+  OrbitOf<System> orbit;
+  orbit.period = period;
+  orbit.state = guess;
+  double best = lost;
+  int idle = 0;
+  for (int i = 0; i < most_iterations; ++i) {
+    const typename System::Passage passage = system.pass(orbit.state, period, true);
+    const State miss = passage.end - orbit.state;
+    const double residual = scaled_distance(passage.end, orbit.state, scale);
+    if (!(residual < lost)) return std::nullopt;
+    // Iterates beyond `converged` until rounding errors stop the improvement.
+    if (residual < converged && (residual >= 0.5 * best || residual == 0.0)) {
+      orbit.passage = passage;
+      orbit.residual = residual;
+      orbit.multipliers = floquet_multipliers<OrbitOf<System>::size>(passage.jacobian);
+      return orbit;
+    }
+    idle = residual < 0.5 * best ? 0 : idle + 1;
+    if (idle > 12) return std::nullopt;
+    best = std::min(best, residual);
+    const Matrix equation =
+        scale.cwiseInverse().asDiagonal() * (Matrix::Identity() - passage.jacobian) * scale.asDiagonal();
+    const State step = equation.fullPivLu().solve(miss.cwiseQuotient(scale));
+    if (!step.allFinite()) return std::nullopt;
+    orbit.state += step.cwiseProduct(scale);
+  }
+  return std::nullopt;
+}
+
+/// Largest Lyapunov exponent over `cycles` from a motion at the start of a cycle, after `lead` cycles in
+/// which the small difference of two motions turns to the direction of fastest growth. The confidence
+/// interval is that of the mean of 20 blocks of cycles (Student's t, 19 degrees of freedom). `state` is
+/// replaced by the state at the end.
+template <class System>
+Exponent exponent_of(const System &system, typename System::State &state, int lead, int cycles) {
+  using State = typename System::State;
+  constexpr int blocks = 20;
+  constexpr double student_t = 2.093; // 97.5 % quantile with 19 degrees of freedom
+  const State scale = system.scale();
+  const int per_block = std::max(1, cycles / blocks);
+  typename System::Motion motion = system.start_at(state);
+  State tangent = scale;
+  std::array<double, blocks> rate{};
+  for (int cycle = -lead; cycle < blocks * per_block; ++cycle) {
+    system.advance(motion, &tangent);
+    const double growth = tangent.cwiseQuotient(scale).norm();
+    if (growth > 0.0)
+      tangent /= growth;
+    else
+      tangent = scale; // the two motions have become equal: restart from a new difference
+    if (cycle >= 0)
+      rate[static_cast<std::size_t>(cycle / per_block)] += std::log(std::max(growth, 1e-300)) / per_block;
+  }
+  state = motion.state;
+  Exponent exponent;
+  for (const double r : rate)
+    exponent.mean += r / blocks;
+  double square = 0.0;
+  for (const double r : rate)
+    square += (r - exponent.mean) * (r - exponent.mean);
+  const double half = student_t * std::sqrt(square / (blocks - 1) / blocks);
+  exponent.low = exponent.mean - half;
+  exponent.high = exponent.mean + half;
+  return exponent;
+}
+
+/// The orbit with its shortest period: Newton's method for a period also finds the orbits whose period is a
+/// fraction of it.
+template <class System>
+OrbitOf<System> with_shortest_period(const System &system, const OrbitOf<System> &orbit) {
+  constexpr double same = 1e-8;
+  const typename System::State scale = system.scale();
+  for (int period = 1; 2 * period <= orbit.period; ++period) {
+    if (orbit.period % period != 0) continue;
+    if (scaled_distance(system.pass(orbit.state, period, false).end, orbit.state, scale) > same) continue;
+    if (const auto shorter = newton_orbit(system, orbit.state, period)) return *shorter;
+  }
+  return orbit;
+}
+
+/// The stable orbit that the states at the starts of the last cycles approach; the shortest period is tried
+/// first.
+template <class System>
+std::optional<OrbitOf<System>> reached_orbit(const System &system,
+                                             const std::vector<typename System::State> &states) {
+  constexpr double near = 0.02; // of the scale, after which Newton is tried
+  constexpr double met = 1e-6;
+  const typename System::State scale = system.scale();
+  const std::size_t last = states.size() - 1;
+  const std::size_t longest = std::min<std::size_t>(longest_period, last / 2);
+  const auto returns =
+      [&](std::size_t period) { // as long as the period: an aperiodic motion does so by chance
+        for (std::size_t i = last; i > last - period; --i)
+          if (scaled_distance(states[i], states[i - period], scale) > near) return false;
+        return true;
+      };
+  for (std::size_t period = 1; period <= longest; ++period) {
+    if (!returns(period)) continue;
+    std::optional<OrbitOf<System>> orbit = newton_orbit(system, states[last], static_cast<int>(period));
+    if (!orbit || !orbit->stable()) continue;
+    const typename System::State &long_ago = states[last - longest / period * period];
+    const double now = scaled_distance(states[last], orbit->state, scale);
+    if (now < met || (now < near && now < scaled_distance(long_ago, orbit->state, scale)))
+      return with_shortest_period(system, *orbit);
+  }
+  return std::nullopt;
+}
+
+/// Continues the motion for some cycles. Returns the states at the ends of the last of them.
+template <class System>
+std::vector<typename System::State> last_states(const System &system, typename System::Motion &motion,
+                                                int cycles) {
+  std::vector<typename System::State> states;
+  for (int cycle = 0; cycle < cycles; ++cycle) {
+    system.advance(motion, nullptr);
+    if (cycle + 2 * longest_period + 1 >= cycles) states.push_back(motion.state);
+  }
+  return states;
+}
+
+/// What a motion has come to.
+template <class System>
+struct Settled {
+  std::optional<OrbitOf<System>> orbit; ///< stable
+  bool aperiodic = false;               ///< without an orbit: the exponent is above zero
+  Exponent exponent;                    ///< of a motion without an orbit
+  typename System::State state;         ///< at the start of a cycle
+  long followed = 0;                    ///< cycles
+};
+
+/// Follows a motion for `cycles` cycles, 100 or more, or up to longest_transient times as many, until it has
+/// reached an orbit: one that Newton finds near the last state, that is stable, and that the motion has come
+/// nearer to. If it does not reach one, the exponent is taken over `cycles` cycles, and over twice and three
+/// times as many while its interval contains 0 or its mean is below 0.02 per cycle.
+template <class System>
+Settled<System> settle(const System &system, typename System::Motion motion, int cycles) {
+  Settled<System> settled;
+  const auto reached = [&](const std::vector<typename System::State> &states) {
+    settled.state = motion.state;
+    settled.orbit = reached_orbit(system, states);
+    return settled.orbit.has_value();
+  };
+  for (int stretch = 0; stretch < longest_transient; ++stretch) {
+    const std::vector<typename System::State> states = last_states(system, motion, cycles);
+    settled.followed = motion.cycle;
+    if (reached(states)) return settled;
+  }
+
+  // The motion is aperiodic, or approaches its orbit very slowly.
+  constexpr int lead = 20;
+  constexpr int rounds = 3;
+  constexpr double clearly =
+      0.02; // per cycle: slower growth is also that of a motion which leaves an unstable orbit
+  for (int round = 0; round < rounds && !settled.aperiodic; ++round) {
+    settled.exponent = exponent_of(system, settled.state, lead, (round + 1) * cycles);
+    motion = system.start_at(settled.state);
+    const std::vector<typename System::State> states = last_states(system, motion, 2 * longest_period + 1);
+    settled.followed += lead + (round + 1) * cycles + motion.cycle;
+    if (reached(states)) return settled;
+    settled.aperiodic =
+        settled.exponent.low > 0.0 && (settled.exponent.mean > clearly || round + 1 == rounds);
+  }
+  return settled;
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,203 @@
+// Motions of a drum with two ends: their orbits against those of the chain and CVODE, their modes, and the
+// map of the command.
+#include "files/roller.h"
+#include "map/ends.h"
+#include "map/orbits.h"
+#include "support/csv.h"
+#include "support/files.h"
+#include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
+#include "tests/support/lines.h"
+#include "tests/support/two_ends_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+using namespace post;
+namespace fs = std::filesystem;
+
+TwoEnds equal_halves(double k, double D, int contacts, double hertz = 29.0) {
+  const Roller roller = read_roller(DRUMLIN_SOURCE_DIR "/inputs/rollers/Axas2020");
+  ChainParameters chain;
+  set_machine(chain, roller, roller.settings.front());
+  chain.transition = Transition::B;
+  chain.Fw *= std::pow(hertz / 29.0, 2);
+  chain.omega *= hertz / 29.0;
+  chain.k = k;
+  chain.D = D;
+  TwoEnds machine = two_ends(chain, Roller()); // equal bonds
+  machine.contacts = equal_contacts(contacts, 2.13, chain.k, chain.damping());
+  return machine;
+}
+
+std::optional<OrbitOf<EndsCycles>> orbit_of(const TwoEndsSolver &solver) {
+  TwoEndsMotion motion = solver.start();
+  for (int cycle = 0; cycle < 300; ++cycle)
+    solver.finish_cycle(motion);
+  return newton_orbit(EndsCycles{solver}, motion.state, 1);
+}
+
+// Four of the eight multipliers are those of bouncing, which the chain has.
+TEST(EndsOrbit, EqualHalvesHaveTheMultipliersOfTheChain) {
+  for (const double k : {15e6, 40e6}) {
+    const TwoEnds machine = equal_halves(k, 0.2, 2);
+    const TwoEndsSolver solver(machine);
+    const auto orbit = orbit_of(solver);
+    ASSERT_TRUE(orbit);
+    const ChainSolver chain(machine.chain);
+    ChainMotion motion = chain.start();
+    for (int cycle = 0; cycle < 300; ++cycle)
+      chain.finish_cycle(motion);
+    const auto single = find_orbit(chain, motion.state, 1);
+    ASSERT_TRUE(single);
+    for (const std::complex<double> &of_chain : single->multipliers) {
+      double nearest = 1.0;
+      for (const std::complex<double> &one : orbit->multipliers)
+        nearest = std::min(nearest, std::abs(one - of_chain));
+      EXPECT_LT(nearest, 1e-8);
+    }
+  }
+}
+
+// Two contacts at L/sqrt(12) and any number of equal ones along the width are the same in unbroken contact.
+TEST(EndsOrbit, TwoContactsAreALineOfSpringsInUnbrokenContactOnly) {
+  const auto multipliers = [](double k, int contacts, double ratio) {
+    TwoEnds machine = equal_halves(k, 0.2, contacts);
+    for (AxleLink &contact : machine.contacts) {
+      const double share = 1.0 + ratio * contact.y; // a linear slope of the stiffness
+      contact.k *= share;
+      contact.c *= share;
+    }
+    const auto orbit = orbit_of(TwoEndsSolver(machine));
+    EXPECT_TRUE(orbit);
+    return orbit ? std::abs(orbit->multipliers[0]) : 0.0;
+  };
+  for (const int contacts : {4, 8, 16})
+    EXPECT_NEAR(multipliers(12e6, contacts, 0.0), multipliers(12e6, 2, 0.0), 1e-9) << contacts;
+  EXPECT_GT(std::fabs(multipliers(35e6, 16, 0.6) - multipliers(35e6, 2, 0.6)), 1e-4);
+}
+
+TEST(EndsOrbit, EqualHalvesLoseContactWhereTheChainDoes) {
+  for (const Transition transition : {Transition::A, Transition::B})
+    for (const double k : {10e6, 25e6, 60e6}) {
+      TwoEnds machine = equal_halves(k, 0.25, 2);
+      machine.chain.transition = transition;
+      const double weight = (machine.chain.m2 + machine.chain.m3) * machine.chain.g;
+      EXPECT_NEAR(2.0 * ends_margin(machine), contact_margin(machine.chain), 1e-9 * weight);
+    }
+}
+
+// Partial uplift that is not stable against tilting ends in rocking: the drum is low on one side in one cycle
+// and on the other side in the next. CVODE returns to the same state after two cycles, and to its mirror
+// image after one.
+TEST(EndsModes, ADrumRocks) {
+  TwoEnds machine = equal_halves(74e6, 0.23, 2, 22.0);
+  machine.drum_inertia = 2900.0;
+  machine.tilt = 1e-5;
+  const TwoEndsSolver solver(machine);
+  TwoEndsMotion motion = solver.start();
+  const EndsPoint point = judge_ends_from(solver, motion, 300);
+  EXPECT_EQ(point.mode, EndsMode::rocking) << ends_mode_names[static_cast<std::size_t>(point.mode)];
+  EXPECT_EQ(point.period, 2);
+  EXPECT_LT(point.multiplier, 1.0);
+  EXPECT_GT(point.tilt, 1e-4);
+  EXPECT_NEAR(point.contact_share[0], point.contact_share[1], 1e-6);
+  const TwoEndsState scale = EndsCycles{solver}.scale();
+  const TwoEndsState start = motion.state;
+  TwoEndsOracle oracle(machine, start);
+  const auto apart = [&](int cycles, bool mirrored) {
+    const oracle::State &y = oracle.at(cycles * machine.chain.period());
+    double most = 0.0;
+    for (int i = 0; i < 8; ++i) {
+      const bool tilt = i % 4 >= 2;
+      const double expected = tilt && mirrored ? -start[i] : start[i];
+      most = std::max(most, std::fabs(y[static_cast<std::size_t>(i)] - expected) / scale[i]);
+    }
+    return most;
+  };
+  EXPECT_LT(apart(1, true), 1e-6);
+  EXPECT_LT(apart(2, false), 1e-6);
+}
+
+TEST(EndsModes, AreTold) {
+  const auto mode = [](TwoEnds machine, double ratio) {
+    for (AxleLink &contact : machine.contacts) {
+      const double share = 2.0 / (1.0 + ratio) * (contact.y < 0.0 ? ratio : 1.0);
+      contact.k *= share;
+      contact.c *= share;
+    }
+    machine.tilt = 1e-5;
+    return judge_ends(machine, 300).mode;
+  };
+  EXPECT_EQ(mode(equal_halves(12e6, 0.2, 2), 1.5), EndsMode::continuous_contact);
+  EXPECT_EQ(mode(equal_halves(25e6, 0.2, 2), 2.5), EndsMode::uplift_of_one_end);
+  EXPECT_EQ(mode(equal_halves(38e6, 0.2, 4), 1.0), EndsMode::uplift_of_both_ends);
+  EXPECT_EQ(mode(equal_halves(55e6, 0.2, 2), 1.0), EndsMode::double_jump);
+  EXPECT_EQ(mode(equal_halves(50e6, 0.2, 2), 3.0), EndsMode::combined);
+}
+
+class EndsMapCommand : public ::testing::Test {
+protected:
+  Outcome map(std::vector<std::string> words) const {
+    words.insert(words.begin(), {DRUMLIN_TOOLS, "map"});
+    return run_program(words, {}, scratch_.path(), 120.0);
+  }
+  const std::string axas_ = DRUMLIN_SOURCE_DIR "/inputs/rollers/Axas2020";
+  Scratch scratch_;
+};
+
+TEST_F(EndsMapCommand, WritesModesOverStiffnessAndRatio) {
+  const Outcome outcome = well(map({"--contacts", "2", "--roller", axas_, "--D", "0.2", "--x",
+                                    "k:10e6:60e6:4", "--y", "ratio:1:3:3:log", "--out", "m"}));
+  EXPECT_TRUE(printed(outcome, "m: 12 points on 2 contacts: continuous contact at "));
+  const Table table = read_table(scratch_ / "m/regimes.csv");
+  EXPECT_EQ(table.rows(), 12U);
+  for (const char *column : {"k [N/m]", "ratio [-]", "regime", "period [cycles]", "multiplier [-]",
+                             "exponent [1/cycle]", "tilt [rad]", "contact_left [-]", "contact_right [-]"})
+    EXPECT_TRUE(table.has(column)) << column;
+  EXPECT_EQ(table.text("regime").front(), "continuous contact");
+  // The side of the stiffer soil is the one that lifts off.
+  EXPECT_LT(table.numbers("contact_left [-]").back(), table.numbers("contact_right [-]").back());
+  for (const char *name :
+       {"modes.png", "tilt.png", "contact_left.png", "contact_right.png", "index.html", "parameters.csv"})
+    EXPECT_TRUE(fs::is_regular_file(scratch_ / "m" / name)) << name;
+  EXPECT_GT(read_table(scratch_ / "m/boundaries.csv").rows(), 1U);
+
+  well(map({"--contacts", "3", "--roller", axas_, "--D", "0.2", "--sweep", "k:20e6:60e6:5", "--out", "s"}));
+  const Table sweep = read_table(scratch_ / "s/sweep.csv");
+  EXPECT_EQ(sweep.rows(), 10U);
+  EXPECT_EQ(sweep.text("direction").back(), "down");
+  EXPECT_TRUE(fs::is_regular_file(scratch_ / "s/sweep.png"));
+}
+
+TEST_F(EndsMapCommand, RefusesInOneLine) {
+  const std::vector<std::string> axes = {"--x", "k:10e6:60e6:4", "--y", "ratio:1:3:3", "--out", "m"};
+  for (const auto &[words, message] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{}, "--y is 'ratio'; allowed: that of the halves of a drum only with --contacts"},
+           {{"--contacts", "1"}, "--contacts is '1'; allowed: "},
+           {{"--contacts", "33"}, "--contacts is '33'; allowed: "},
+           {{"--contacts", "two"}, "--contacts is 'two'; allowed: "},
+           {{"--contacts", "2", "--drum-radius", "0.7"}, "--drum-radius is '0.7'; allowed: "},
+           {{"--contacts", "2", "--identify", "3"}, "--identify is '3'; allowed: "}}) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), axes.begin(), axes.end());
+    const Outcome outcome = map(all);
+    EXPECT_EQ(outcome.status, 2);
+    expect_one_error(outcome.output, "drumlin map: ");
+    EXPECT_TRUE(printed(outcome, message));
+    EXPECT_FALSE(fs::exists(scratch_ / "m"));
+  }
+}
+
+} // namespace
+} // namespace drumlin::test
