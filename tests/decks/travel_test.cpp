@@ -233,21 +233,26 @@ TEST_P(TravellingDrum, MovesAClumpAsItsEquationsOfMotion) {
 }
 
 TEST_P(TravellingDrum, GoesRoundAPeriodicBoxInOneDirection) {
-  const Scratch folder;
-  well(run("travel", folder,
-           {{"words", "from 0 to 2 speed 4 ramp 0.1 passes 3 direction one rotation driven"},
-            {"sides", "p"},
-            {"steps", "18500"},
-            {"every", "100"}}));
-  const Programme programme{2, 4, 0.1, 0};
-  for (const Frame &frame : read_dump(folder / "balls.txt")) {
-    const double t = static_cast<double>(frame.step) * 1e-4;
-    const int pass = std::min(2, static_cast<int>(t / programme.pass_time()));
-    const double way = 2 * pass + programme.way(t - pass * programme.pass_time());
-    const Ball &ball = frame.balls.begin()->second;
-    EXPECT_NEAR(std::remainder(ball.x[0] - way, 2.0), 0, 1e-12) << frame.step;
+  for (const char *balls : {"0", "24"}) {
+    const Scratch folder;
+    well(run("travel", folder,
+             {{"words", "from 0 to 2 speed 4 ramp 0.1 passes 3 direction one rotation driven radius 0.2"},
+              {"clump", balls},
+              {"sides", "p"},
+              {"steps", "18500"},
+              {"every", "100"}}));
+    const Programme programme{2, 4, 0.1, 0};
+    for (const Frame &frame : read_dump(folder / "balls.txt")) {
+      const double t = static_cast<double>(frame.step) * 1e-4;
+      const int pass = std::min(2, static_cast<int>(t / programme.pass_time()));
+      const double way = 2 * pass + programme.way(t - pass * programme.pass_time());
+      const double lever =
+          balls[0] == '0' ? 0.0 : 0.15; // the last ball of the ring is below the axle at first
+      const double place = way - lever * std::sin(way / radius);
+      EXPECT_NEAR(std::remainder(frame.balls.rbegin()->second.x[0] - place, 2.0), 0, 1e-12) << frame.step;
+    }
+    EXPECT_NEAR(read_rows(folder / "travel.txt").back().place, 2, 1e-12);
   }
-  EXPECT_NEAR(read_rows(folder / "travel.txt").back().place, 2, 1e-12);
 }
 
 TEST_P(TravellingDrum, ContinuesFromARestartFileBitwiseInAPassAndInATurnAlsoOnRanks) {
