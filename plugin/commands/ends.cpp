@@ -74,7 +74,7 @@ variables_of(const std::string &asked, const std::string &roller_name, const Val
       throw std::invalid_argument(fault);
   const AxlePositions rest = at_rest(contacts, bonds, -v.m2 * v.g, -v.m3 * v.g);
   const double share = v.m2 / static_cast<double>(contacts.size()); // kg, of fix clump with keyword links
-  std::string bond_words; // for fix roller/history
+  std::string bond_words;                                           // for fix roller/history
   for (std::size_t n = 1; n <= bonds.size(); ++n)
     bond_words += fmt::format("{}bond bond{}", n == 1 ? "" : " ", n);
   const auto y = [](const AxleLink &link) { return link.y; };
@@ -106,21 +106,22 @@ variables_of(const std::string &asked, const std::string &roller_name, const Val
 
 /// Gives contact j, of a soil ball of type j, its stiffness and damping ratio.
 void give_laws(LAMMPS *lmp, Arguments &in) {
-  std::array<std::vector<double>, 2> lists;
-  const char *const names[] = {"stiffnesses", "damping ratios"};
-  for (std::size_t n = 0; n < lists.size(); ++n) {
-    const std::string text = in.word(names[n], "a number for each contact, separated by commas");
-    const Range &range = n == 0 ? Range::positive : Range::non_negative;
+  const auto read = [&in](const std::string &name, const Range &range) {
+    const std::string text = in.word(name, "a number for each contact, separated by commas");
+    std::vector<double> numbers;
     for (const std::string &entry : list_entries(text)) {
-      lists[n].push_back(parse_number(entry));
-      if (!in_range(lists[n].back(), range)) in.fail(names[n], text, allowed_text(range));
+      numbers.push_back(parse_number(entry));
+      if (!in_range(numbers.back(), range)) in.fail(name, text, allowed_text(range));
     }
-  }
+    return numbers;
+  };
+  const std::vector<double> stiffnesses = read("stiffnesses", Range::positive);
+  const std::vector<double> ratios = read("damping ratios", Range::non_negative);
   in.expect_end("laws STIFFNESSES RATIOS");
-  const std::size_t count = lists[0].size();
-  if (lists[1].size() != count)
+  const std::size_t count = stiffnesses.size();
+  if (ratios.size() != count)
     in.fail(fmt::format("number of damping ratios is '{}'; allowed: {}, that of the stiffnesses",
-                        lists[1].size(), count));
+                        ratios.size(), count));
   if (lmp->domain->box_exist == 0 || static_cast<std::size_t>(lmp->atom->ntypes) <= count)
     in.fail(
         fmt::format("number of contacts is '{}'; allowed: fewer than the types of balls in the box", count));
@@ -129,7 +130,7 @@ void give_laws(LAMMPS *lmp, Arguments &in) {
   for (std::size_t a = 0; a < types; ++a)
     for (std::size_t b = 0; b < types; ++b) {
       const std::size_t contact = std::min({a, b, count - 1});
-      table.push_back({lists[0][contact], lists[1][contact]});
+      table.push_back({stiffnesses[contact], ratios[contact]});
     }
   engine::set_contacts(lmp, table, false, false, {});
 }

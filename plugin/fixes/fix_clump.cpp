@@ -66,11 +66,6 @@ void FixClump::init() {
   if (axes_) {
     refuse_other_shape();
     refuse_torques();
-    if (roller_ != nullptr)
-      error->all(FLERR, drumlin::engine::error_text(
-                            fmt::format("fix clump: keyword tilt has the group '{}', which fix {} rolls; "
-                                        "allowed: a body that tilts or one that rolls",
-                                        group->names[igroup], roller_->id)));
   }
   // 0: not a run, but a command that needs the engine's lists. A body that rolls is checked by fix
   // drum/travel.
@@ -90,6 +85,11 @@ void FixClump::init() {
   bool later = false;
   for (Fix *fix : drumlin::engine::fixes(modify)) {
     const Fix &other = *fix;
+    if (axes_ && std::string(other.style) == "drum/travel" && common_balls(other) > 0)
+      error->all(FLERR, drumlin::engine::error_text(fmt::format(
+                            "fix clump: keyword tilt has the group '{}', which fix {} (drum/travel) drives; "
+                            "allowed: a body that does not drive",
+                            group->names[igroup], other.id)));
     const bool forces = later && (drumlin::engine::fix_mask(modify, fix) & FixConst::POST_FORCE);
     later = later || fix == this;
     if (!forces) continue;

@@ -272,6 +272,10 @@ BadGroup clump() {
        "group three union soil roller\ndisplace_atoms drum move 0 0.5 0 units box\n"
        "fix body three clump tilt 1 0 0 axle 0 1 0",
        "keyword tilt has the group 'three', of which a ball is ' ... off the plane ... balls on one axle"},
+      {"a tilt of what drives",
+       "fix travel roller drum/travel from 0 to 1 speed 1\nfix body roller clump tilt 0 1 0 axle 0 0 1",
+       "keyword tilt has the group 'roller', which fix travel (drum/travel) drives ... does not drive",
+       on_two_ranks},
       {"links of no type", "fix body drum clump links 9 1", "keyword links, type is '9' ... 1 to 3"},
       {"links of no number", "fix body drum clump links 2 0",
        "keyword links, number of contacts or bonds is '0' ... from 1"},
