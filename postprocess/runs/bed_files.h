@@ -39,7 +39,8 @@ struct DriveHistory {
 };
 
 /// Reads these columns of a bed.csv, row by row, since a drive has millions of cells, without a last row that
-/// lacks its line end. Throws MissingColumn if the roller did not drive, else std::runtime_error with file, line and column.
+/// lacks its line end. Throws MissingColumn if the roller did not drive, else std::runtime_error with file,
+/// line and column.
 DriveHistory read_drive_history(const std::filesystem::path &file);
 
 } // namespace drumlin::post
