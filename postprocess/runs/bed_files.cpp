@@ -9,7 +9,7 @@
 namespace drumlin::post {
 
 BedHistory read_bed_history(const std::filesystem::path &file) {
-  const Table table = read_table(file, CutRows::last);
+  const Table table = read_table(file);
   BedHistory bed;
   bed.coordination = table.numbers("coordination");
   bed.void_ratio = table.numbers("void_ratio");

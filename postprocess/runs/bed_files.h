@@ -38,8 +38,9 @@ struct DriveHistory {
   std::size_t size() const { return time.size(); }
 };
 
-/// Reads these columns of a bed.csv, row by row, since a drive has millions of cells. Throws MissingColumn if
-/// the roller did not drive, else std::runtime_error with file, line and column.
+/// Reads these columns of a bed.csv, row by row, since a drive has millions of cells, without a last row that
+/// lacks its line end. Throws MissingColumn if the roller did not drive, else std::runtime_error with file,
+/// line and column.
 DriveHistory read_drive_history(const std::filesystem::path &file);
 
 } // namespace drumlin::post

@@ -66,7 +66,7 @@ constexpr const char *known_cycle_columns[] = {
 
 ChainHistory read_chain(const fs::path &file) {
   // A long record has millions of cells: they go straight into numbers, not through a Table of text.
-  CsvRows rows(file, CutRows::last);
+  CsvRows rows(file);
   const auto any_of = [&](ColumnGroup group) {
     return std::any_of(history_columns.begin(), history_columns.end(), [&](const HistoryColumn &column) {
       return column.group == group && rows.find(column.name);
@@ -97,9 +97,7 @@ ChainHistory read_chain(const fs::path &file) {
   return history;
 }
 
-std::vector<ContactEvent> read_events(const fs::path &file) {
-  return event_columns().rows(read_table(file, CutRows::last));
-}
+std::vector<ContactEvent> read_events(const fs::path &file) { return event_columns().rows(read_table(file)); }
 
 CycleColumns read_cycle_columns(const fs::path &file) {
   const Table table = read_table(file, CutRows::last);

@@ -1,7 +1,6 @@
 // The CSV files of a chain run: chain.csv, events.csv, cycles.csv, and parameters.csv
 // (runs/parameter_file.h). One reader and one writer per file, for the engine's output and for the direct
-// solver's alike. A last row without line end, which a run that was killed or a full disk leaves, is left
-// out. Errors and numbers are as in support/csv.h.
+// solver's alike. Errors and numbers are as in support/csv.h.
 #pragma once
 
 #include "runs/parameter_file.h"
@@ -124,7 +123,8 @@ struct CycleColumns {
 ChainHistory read_chain(const std::filesystem::path &file);
 /// Reads events.csv.
 std::vector<ContactEvent> read_events(const std::filesystem::path &file);
-/// Reads the columns of a cycles.csv that are known; any may be missing.
+/// Reads the columns of a cycles.csv that are known; any may be missing. A last row without line end, which a
+/// run that was killed or a full disk leaves, is left out.
 CycleColumns read_cycle_columns(const std::filesystem::path &file);
 
 /// The text of the files.
