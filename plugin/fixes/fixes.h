@@ -28,7 +28,7 @@ void for_each_fix(Add &&add) {
   add(FixType<LAMMPS_NS::FixDrumTravel>(), "drum/travel", "a roller that drives");
   add(FixType<LAMMPS_NS::FixBondSpring>(), "bond/spring", "bonded spring-dashpot");
   add(FixType<LAMMPS_NS::FixBoundaryAbsorb>(), "boundary/absorb", "boundary of balls that absorbs waves");
-  add(FixType<LAMMPS_NS::FixClump>(), "clump", "rigid body that does not rotate");
+  add(FixType<LAMMPS_NS::FixClump>(), "clump", "rigid body that translates and may tilt");
   add(FixType<LAMMPS_NS::FixContactEvents>(), "contact/events", "makes and breaks of contact");
   add(FixType<LAMMPS_NS::FixContactLocal>(), "contact/local", "contacts and their forces for dump local");
   add(FixType<LAMMPS_NS::FixContactEnergy>(), "contact/energy", "energies of balls and contacts, and heat");
