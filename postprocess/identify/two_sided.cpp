@@ -11,6 +11,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace drumlin::post {
 
@@ -59,9 +60,9 @@ std::optional<MotionFit> follow_both(const Record &record, const std::array<Half
       for (double &x : half.contact.x)
         x /= factor;
     }
-    const std::optional<MotionFit> fit = fit_motion(record, start, setting);
+    std::optional<MotionFit> fit = fit_motion(record, start, setting);
     if (fit && fit->is_noise) return fit;
-    if (fit && (!best || fit->residual < best->residual)) best = fit;
+    if (fit && (!best || fit->residual < best->residual)) best = std::move(fit);
   }
   return best;
 }

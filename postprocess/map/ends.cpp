@@ -53,7 +53,6 @@ public:
       const double y = machine.contacts[j].y;
       if (y <= 0.0) halves_[0] |= 1U << j;
       if (y >= 0.0) halves_[1] |= 1U << j;
-      all_ |= 1U << j;
     }
   }
   void piece(const ContactSet::Piece &piece, const ContactSet & /*set*/, std::uint32_t acting) override {
@@ -79,7 +78,6 @@ public:
 
 private:
   std::array<std::uint32_t, 2> halves_{};
-  std::uint32_t all_ = 0;
   std::array<double, 2> time_{};
   std::array<bool, 2> lost_{};
   double least_ = std::numeric_limits<double>::infinity(), most_ = -least_;
