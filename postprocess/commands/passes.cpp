@@ -1,6 +1,6 @@
-#include "commands/commands.h"
+#include "commands/passes.h"
 
-#include "commands/roller_options.h"
+#include "commands/commands.h"
 #include "commands/text_options.h"
 #include "passes/field_page.h"
 #include "passes/page.h"
@@ -24,15 +24,6 @@ namespace {
 constexpr const char *page_folder = "passes"; // in the folder of the results
 constexpr const char *usual_out = "results/passes";
 
-/// The options as given. Numbers stay text until all are judged.
-struct Arguments {
-  std::vector<std::string> folders;
-  std::string cell = "0.34", meter = "CMV", coverage = "80";
-  std::optional<std::string> spacing, out, target, field;
-  RollerArguments roller;
-  DrumArguments drum;
-};
-
 struct Task {
   std::vector<fs::path> folders;
   std::optional<fs::path> field; ///< of a site, instead of folders
@@ -42,7 +33,7 @@ struct Task {
 };
 
 /// Refuses options of runs for a file of a site, and a call that names neither or both.
-void check_kind(const Arguments &arguments) {
+void check_kind(const PassesArguments &arguments) {
   if (!arguments.field && arguments.folders.empty())
     throw UsageError(refusal("FOLDER", "", "the folder of a run of inputs/bed/in.drive, or --field FILE"));
   if (!arguments.field) return;
@@ -57,7 +48,7 @@ void check_kind(const Arguments &arguments) {
   of_runs("--drum-width", arguments.drum.width);
 }
 
-Task judge(const Arguments &arguments) {
+Task judge(const PassesArguments &arguments) {
   Task task;
   check_kind(arguments);
   task.rule.coverage = 0.01 * number_option("--coverage", arguments.coverage, {0.0, 100.0, "%", false, true});
@@ -120,7 +111,7 @@ std::vector<FileText> acceptance_of(const fs::path &folder, const JudgedMap &jud
 }
 
 /// The same of a file of a site.
-void run_field(const Arguments &arguments, const Task &task) {
+void run_field(const PassesArguments &arguments, const Task &task) {
   const FieldFile field = read_field_file(*task.field, arguments.meter, task.options.cell);
   const JudgedMap judged(meter_map(field), task.rule);
   make_output_folder(task.out);
@@ -138,7 +129,9 @@ void run_field(const Arguments &arguments, const Task &task) {
              (task.out / page_folder / "index.html").string());
 }
 
-void run(const Arguments &arguments) {
+} // namespace
+
+void print_passes(const PassesArguments &arguments) {
   const Task task = judge(arguments);
   if (task.field) {
     run_field(arguments, task);
@@ -182,10 +175,8 @@ void run(const Arguments &arguments) {
              (task.out / page_folder / "index.html").string());
 }
 
-} // namespace
-
 void add_passes_command(CLI::App &app, Session & /*session*/) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<PassesArguments>();
   CLI::App *passes = app.add_subcommand(
       "passes",
       "What each pass of a roller that drives over a bed leaves: settlement, how much of it is "
@@ -225,7 +216,7 @@ void add_passes_command(CLI::App &app, Session & /*session*/) {
                  "  drumlin passes results/drive-1 results/drive-2 results/drive-3 --out results/seeds\n"
                  "  drumlin passes results/drive --target 30\n"
                  "  drumlin passes --field site.csv --target 45 --coverage 70 --out results/site");
-  passes->callback([arguments] { run(*arguments); });
+  passes->callback([arguments] { print_passes(*arguments); });
 }
 
 } // namespace drumlin::post

@@ -21,9 +21,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A study, or a map, which has a page of its own, too.
+// A study; a map or the passes of a run, which have a page of their own, too.
 bool is_study_folder(const fs::path &folder) {
-  return (fs::is_regular_file(folder / "study.txt") || fs::is_regular_file(folder / "regimes.csv")) &&
+  return (fs::is_regular_file(folder / "study.txt") || fs::is_regular_file(folder / "regimes.csv") ||
+          (folder.filename() == "passes" && fs::is_regular_file(folder.parent_path() / "passes.csv"))) &&
          fs::is_regular_file(folder / "index.html");
 }
 

@@ -64,8 +64,9 @@ struct LeftOut {
 
 /// The folders that a report is made from.
 struct ReportFolders {
-  std::vector<std::filesystem::path> runs;    ///< hold chain.csv or bed.csv
-  std::vector<std::filesystem::path> studies; ///< hold index.html and study.txt, or regimes.csv of a map
+  std::vector<std::filesystem::path> runs; ///< hold chain.csv or bed.csv
+  /// Hold index.html, and study.txt, or regimes.csv of a map, or are the page of passes.
+  std::vector<std::filesystem::path> studies;
   std::map<std::string, std::vector<std::filesystem::path>> element_tests; ///< by name of the test
   std::vector<LeftOut> left_out; ///< earlier reports, and runs that were cut before their first row
 

@@ -466,7 +466,7 @@ TEST_F(FrontScript, DemoEndsAtTheFirstRunThatFails) {
   };
   const Outcome failed = demo("echo going well; echo 'ERROR: too hot'; echo more; exit 5");
   EXPECT_EQ(failed.status, 1);
-  EXPECT_EQ(failed.output, "[ 1/18] impact, A              failed\n"
+  EXPECT_EQ(failed.output, "[ 1/20] impact, A              failed\n"
                            "ERROR: drumlin demo: impact, A failed; its output is in "
                            "results/demo/impact/A/screen.txt: ERROR: too hot\n");
   EXPECT_EQ(post::read_text(folder / "results/demo/impact/A/screen.txt"),
