@@ -16,8 +16,8 @@ class Arguments;
 namespace LAMMPS_NS {
 
 /// Distributes the sum of the forces on the balls over them in proportion to their masses, so that all have
-/// one acceleration. A body that may tilt also takes the moment of these forces about its centre of mass; of a
-/// body that fix drum/travel lets roll their torque about the axle is kept in the torques on the balls.
+/// one acceleration. A body that may tilt also takes the moment of these forces about its centre of mass; of
+/// a body that fix drum/travel lets roll their torque about the axle is kept in the torques on the balls.
 /// Contacts of its balls use the mass of the body.
 class FixClump : public Fix {
 public:
@@ -36,9 +36,9 @@ public:
   /// Mass of the body, kg, at the last time that forces were distributed; valid from init() on.
   double mass() const { return mass_; }
   /// Mass that a contact of a ball of this type moves: that of the body, or its share by keyword `links`.
-  double mass_in_contact(int type) const { return links_[type] > 0.0 ? mass_ / links_[type] : mass_; }
+  double mass_in_contact(int type) const { return mass_per_link(type, mass_); }
   /// The same of a bond; `own`, the mass of the ball, without this keyword.
-  double mass_in_bond(int type, double own) const { return links_[type] > 0.0 ? mass_ / links_[type] : own; }
+  double mass_in_bond(int type, double own) const { return mass_per_link(type, own); }
 
   /// Directions of a body that may tilt; none: it translates alone.
   const std::optional<drumlin::physics::TiltAxes> &tilts() const { return axes_; }
@@ -48,6 +48,10 @@ public:
   std::array<double, 3> place_of(int i) const;
 
 private:
+  double mass_per_link(int type, double otherwise) const {
+    const double links = links_[static_cast<std::size_t>(type)];
+    return links > 0.0 ? mass_ / links : otherwise;
+  }
   void parse(drumlin::Arguments &in);
   int common_balls(const Fix &other) const;
   void refuse_unequal_velocities() const;

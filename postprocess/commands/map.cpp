@@ -536,12 +536,12 @@ void add_map_command(CLI::App &app, Session & /*session*/) {
               "eccentric moment m_e r_e [kg m]: Fw = m_e r_e omega^2 instead of a fixed Fw");
   text_option(
       map, "--contacts", "COUNT", arguments->contacts,
-      fmt::format(
-          "a drum with two ends on 2 to {} contacts along its width, which share k and D: whether its "
-          "ends lift off together or by turns; then a NAME of an axis may be ratio, of k and c "
-          "below the left half to those below the right one; without axes k:5e6:100e6:39 over "
-          "ratio:1:4:25:log",
-          most_contacts));
+      fmt::format("a drum with two ends on 2 to {} contacts along its width, which share k and D (eight or "
+                  "more where an end leaves the soil): whether its "
+                  "ends lift off together or by turns; then a NAME of an axis may be ratio, of k and c "
+                  "below the left half to those below the right one; without axes k:5e6:100e6:39 over "
+                  "ratio:1:4:25:log",
+                  most_contacts));
   text_option(map, "--cycles", "COUNT", arguments->cycles,
               "cycles of the excitation at each point, 100 or more");
   CLI::Option *threads =

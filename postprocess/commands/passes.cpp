@@ -196,12 +196,14 @@ void add_passes_command(CLI::App &app, Session & /*session*/) {
               "peak_force; of a site's file the name of a column, with or without Last");
   text_option(
       passes, "--target", "NUMBER", arguments->target,
-      "of this value, in its unit in way.csv: cells at or above it are counted; without it nothing is "
+      "of this value, in its unit in passes.csv: cells at or above it are counted; without it nothing is "
       "judged");
   text_option(passes, "--coverage", "NUMBER", arguments->coverage,
               "share of the cells that must reach the target [%]; rules have 70 or 80");
-  text_option(passes, "--cell", "NUMBER", arguments->cell,
-              "length of a cell along the way [m], which holds four cycles of the excitation or more");
+  text_option(
+      passes, "--cell", "NUMBER", arguments->cell,
+      "length of a cell along the way [m], of four cycles of the excitation or more; with --field the "
+      "side of the grid's cells");
   text_option(passes, "--spacing", "NUMBER", arguments->spacing,
               "distance of the vertical lines along which surfaces are measured [m]; a quarter of the radius "
               "of the smallest ball if not given");

@@ -343,10 +343,11 @@ Record judged(const RecordArguments &arguments) {
 
 void add_way_options(CLI::App &command, WayArguments &arguments) {
   text_option(&command, "--from-place", "NUMBER", arguments.from,
-              "of a roller that drives only the way from here on [m], column s of the run");
-  text_option(&command, "--to-place", "NUMBER", arguments.to, "and up to here [m]");
+              "only the way from this place on [m], of a roller that drives (column s of the run)");
+  text_option(&command, "--to-place", "NUMBER", arguments.to,
+              "only the way up to this place [m], of a roller that drives");
   text_option(&command, "--of-pass", "COUNT", arguments.pass,
-              "and of this pass, counted from 1; the last one if not given");
+              "only this pass of a roller that drives, counted from 1; the last one if not given");
 }
 
 WayRange judged(const WayArguments &arguments) {

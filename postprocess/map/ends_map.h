@@ -17,8 +17,8 @@ struct EndsFamily {
   Roller roller; ///< how it tilts: see two_ends()
   int contacts = 2;
 
-  /// With the numbers set by axes. At rest the drum is tilted by 1e-5 rad besides its equilibrium, so that a
-  /// motion that is not stable against tilting does not last.
+  /// With the numbers set by axes. It starts with the drum tilted by 1e-5 rad from its static equilibrium, so
+  /// that a motion that is unstable against tilting does not last.
   TwoEnds at(const std::vector<std::pair<std::string, double>> &values) const;
 };
 
