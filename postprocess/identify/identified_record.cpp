@@ -174,7 +174,7 @@ std::optional<MotionFit> follow_motion(const Record &record, const Identificatio
     start.law.k.mean *= factor;
     for (double &x : start.x)
       x /= factor;
-    const std::optional<MotionFit> fit = fit_motion(record, start, setting);
+    std::optional<MotionFit> fit = fit_motion(record, start, setting);
     if (fit && fit->is_noise) return fit;
     if (!first) first = fit;
   }
