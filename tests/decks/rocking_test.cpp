@@ -166,7 +166,7 @@ TEST(RockingHalves, AreTheChainIfTheyAreEqual) {
       well(run_deck(chain_deck("in.chain"), chain, scratch.path()));
       const ChainHistory single = read_run(scratch.path()).history;
       for (const std::string contacts : {"1", "2", "5", "32"}) {
-        SCOPED_TRACE(stepping + transition + contacts);
+        SCOPED_TRACE(testing::Message() << stepping << " " << transition << " " << contacts);
         Variables ends = common;
         ends.emplace_back("contacts", contacts);
         const ChainHistory halves = rocking.run(ends).history;
