@@ -37,9 +37,10 @@ void print_report(const ReportArguments &arguments) {
 
 void add_report_command(CLI::App &app, Session &) {
   const auto arguments = std::make_shared<ReportArguments>();
-  CLI::App *report = app.add_subcommand("report", "Figures, tables and checks against reference values from "
-                                                  "runs of the chain, of single impacts and of a "
-                                                  "roller on a bed, as pages that open from disk.");
+  CLI::App *report =
+      app.add_subcommand("report", "Figures, tables and checks against reference values from "
+                                   "runs of the chain, of drums with two ends, of single impacts and of a "
+                                   "roller on a bed, as pages that open from disk.");
   report
       ->add_option(
           "dir", arguments->folders,

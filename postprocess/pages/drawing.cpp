@@ -190,6 +190,20 @@ std::string sphere_drawing() {
          text(216, 120, "μ, e, contact law");
 }
 
+std::string two_ends_drawing() {
+  std::string below;
+  for (const double x : {68.0, 180.0})
+    below += spring(x, 200, 272) + dashpot(x + 32.0, 200, 272);
+  return box(50, 12, 180, 40, steel) + text(140, 37, "frame m₃", "middle") +
+         strokes(spring(84, 52, 112) + spring(196, 52, 112)) + text(250, 86, "k₂₃, c₂₃") +
+         box(40, 112, 200, 88, steel) + text(140, 136, "drum m₂", "middle") +
+         strokes(arrow(128, 170, 144) + arrow(128, 170, 196), 2.4, red) +
+         text(140, 175, "Fw sin ωt", "start", red) + disc(48, 120, 5, red) + disc(232, 120, 5, red) +
+         text(250, 125, "sensors") + strokes("M262 178 A 130 130 0 0 0 262 142 M256 151 L262 142 L269 150 ") +
+         text(274, 165, "tilt") + strokes(below + ground(40, 262, 272)) +
+         text(84, 300, "left half", "middle") + text(196, 300, "right half", "middle");
+}
+
 /// A drawing with its words.
 struct Scene {
   const char *title, *caption;
@@ -198,7 +212,7 @@ struct Scene {
 };
 
 /// In the order of Drawing.
-const std::array<Scene, 12> scenes = {{
+const std::array<Scene, 13> scenes = {{
     {"The chain of soil, drum and frame",
      "The model: frame and drum move up and down only. The contact with the soil is a spring and a "
      "dashpot that act while drum and soil overlap.",
@@ -240,6 +254,11 @@ const std::array<Scene, 12> scenes = {{
      "The model: soil balls under gravity between two smooth walls, of which the right one moves "
      "outward slowly.",
      wall_drawing},
+    {"A drum with two ends",
+     "The model, seen along the way of travel: frame and drum move up and down and tilt. Each contact is "
+     "made "
+     "and broken by itself.",
+     two_ends_drawing, 310},
 }};
 
 } // namespace

@@ -18,7 +18,8 @@ enum class Drawing {
   shear,     ///< a sample between two plates, of which the upper one moves sideways
   repose,    ///< soil on a floor from which a wall moves away
   silo,      ///< soil between two walls, whose floor moves down
-  wall       ///< soil behind a wall that moves outward
+  wall,      ///< soil behind a wall that moves outward
+  two_ends   ///< drum and frame that tilt, seen along the way of travel
 };
 
 /// <figure class="scene"> with the drawing, its text alternative and a caption.

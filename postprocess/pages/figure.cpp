@@ -8,7 +8,7 @@ namespace drumlin::post {
 
 namespace {
 
-KeyFigure key_figure(const PageFigure &whole, const std::string &page) {
+KeyFigure key_figure(const PageFigure &whole, const std::string &page, const std::string &subject) {
   KeyFigure key;
   key.figure = whole.figure;
   key.figure.name += "_key";
@@ -20,13 +20,14 @@ KeyFigure key_figure(const PageFigure &whole, const std::string &page) {
   if (key.caption.rfind(whole.label, 0) == 0) key.caption.erase(0, whole.label.size());
   key.caption.erase(0, std::min(key.caption.find_first_not_of(' '), key.caption.size()));
   key.href = fmt::format("{}#{}", page, whole.figure.name);
-  key.link = page.empty() ? whole.label : fmt::format("{} of the page on beds", whole.label);
+  key.link = page.empty() ? whole.label : fmt::format("{} of the page on {}", whole.label, subject);
   return key;
 }
 
 } // namespace
 
-std::vector<KeyFigure> key_figures(const std::vector<PageFigure> &figures, const std::string &page) {
+std::vector<KeyFigure> key_figures(const std::vector<PageFigure> &figures, const std::string &page,
+                                   const std::string &subject) {
   std::vector<const PageFigure *> candidates;
   for (const PageFigure &figure : figures)
     if (figure.weight > 0.0) candidates.push_back(&figure);
@@ -37,7 +38,7 @@ std::vector<KeyFigure> key_figures(const std::vector<PageFigure> &figures, const
   std::vector<KeyFigure> keys;
   keys.reserve(candidates.size());
   for (const PageFigure *figure : candidates)
-    keys.push_back(key_figure(*figure, page));
+    keys.push_back(key_figure(*figure, page, subject));
   return keys;
 }
 

@@ -50,6 +50,8 @@ struct FigurePlan {
 /// The figures that a page opens with: up to two, of largest weight above 0, the larger first.
 /// \param page the page that has the figures, relative to the one that opens with them; empty for the same
 /// page
-std::vector<KeyFigure> key_figures(const std::vector<PageFigure> &figures, const std::string &page = "");
+/// \param subject of that page, in words
+std::vector<KeyFigure> key_figures(const std::vector<PageFigure> &figures, const std::string &page = "",
+                                   const std::string &subject = "beds");
 
 } // namespace drumlin::post

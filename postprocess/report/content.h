@@ -2,6 +2,7 @@
 #pragma once
 
 #include "report/bed/measures.h"
+#include "report/chain/ends_page.h"
 #include "report/chain/figures.h"
 #include "report/chain/measures.h"
 #include "report/chain/tables.h"
@@ -25,17 +26,21 @@ struct StudyLink {
   std::string title; ///< plain text
 };
 
-/// What a report is made of. With runs on beds only, `results` and `figures` are empty.
+/// What a report is made of. With runs on beds or of drums with two ends only,
+/// `results` and `figures` are empty.
 struct ReportContent {
   ReportResults results;
   FigurePlan figures;
   std::vector<BedResult> beds;
   std::vector<BedGroup> groups; ///< of `beds`, which must stay where they are
   FigurePlan bed_figures;
-  std::vector<KeyFigure> keys;     ///< of the first page: with chains and beds one of each
-  std::vector<KeyFigure> bed_keys; ///< of the page on beds
+  std::vector<EndsResult> ends; ///< drums with two ends
+  FigurePlan ends_figures;
+  std::vector<KeyFigure> keys;      ///< of the first page: with chains and beds one of each
+  std::vector<KeyFigure> bed_keys;  ///< of the page on beds
+  std::vector<KeyFigure> ends_keys; ///< of the page on drums with two ends
   std::vector<PageTable> bed_tables;
-  std::vector<PageTable> tables; ///< all, those of beds included
+  std::vector<PageTable> tables; ///< all, those of the other pages included
   std::vector<StudyLink> studies;
   std::vector<LeftOut> left_out; ///< runs that were cut, and what cannot be read
   ReportVersions versions;

@@ -140,6 +140,8 @@ ReportContent make_content(std::vector<Run> runs, std::vector<LeftOut> left_out,
     try {
       if (run.kind == RunKind::bed)
         content.beds.push_back(analyse_bed(std::move(run)));
+      else if (run.kind == RunKind::ends)
+        content.ends.push_back(analyse_ends(std::move(run)));
       else
         content.results.runs.push_back(analyse(std::move(run), direct));
     } catch (const std::runtime_error &error) {
@@ -149,10 +151,14 @@ ReportContent make_content(std::vector<Run> runs, std::vector<LeftOut> left_out,
   content.left_out = std::move(left_out);
   any_beds = !content.beds.empty();
   compare(content.results);
-  const bool only_beds = content.results.runs.empty() && any_beds;
-  if (!only_beds) {
+  if (!content.results.runs.empty() || (!any_beds && content.ends.empty())) {
     content.figures = plan_figures(content.results);
     content.tables = make_tables(content.results);
+  }
+  if (!content.ends.empty()) {
+    content.ends_figures = plan_ends_figures(content.ends);
+    const std::vector<PageTable> tables = ends_tables(content.ends);
+    content.tables.insert(content.tables.end(), tables.begin(), tables.end());
   }
   if (!any_beds) return content;
   content.bed_tables = bed_tables(content.beds);
@@ -167,18 +173,22 @@ ReportContent make_content(std::vector<Run> runs, std::vector<LeftOut> left_out,
 void choose_keys(ReportContent &content) {
   content.keys = key_figures(content.figures.figures);
   content.bed_keys = key_figures(content.bed_figures.figures);
-  const std::vector<KeyFigure> of_beds = key_figures(content.bed_figures.figures, "bed.html");
+  content.ends_keys = key_figures(content.ends_figures.figures);
+  std::vector<KeyFigure> others = key_figures(content.bed_figures.figures, "bed.html");
+  for (const KeyFigure &key : key_figures(content.ends_figures.figures, "ends.html", "two ends"))
+    others.push_back(key);
   constexpr std::size_t most = 2;
-  if (!of_beds.empty()) content.keys.resize(std::min(content.keys.size(), most - 1));
-  for (const KeyFigure &key : of_beds)
+  if (!others.empty()) content.keys.resize(std::min(content.keys.size(), most - 1));
+  for (const KeyFigure &key : others)
     if (content.keys.size() < most) content.keys.push_back(key);
 }
 
 /// Draws the figures into the folder, with the data of figures and tables.
 void draw(const ReportContent &content, const fs::path &gnuplot, const fs::path &folder,
           CountedProgress &drawing) {
-  for (const auto &[plan, page] :
-       {std::pair<const FigurePlan *, const char *>(&content.figures, ""), {&content.bed_figures, "bed: "}}) {
+  for (const auto &[plan, page] : {std::pair<const FigurePlan *, const char *>(&content.figures, ""),
+                                   {&content.bed_figures, "bed: "},
+                                   {&content.ends_figures, "two ends: "}}) {
     for (const AbsentFigure &absent : plan->absent)
       drawing.begins(fmt::format("{}{} left out: {}", page, absent.label, absent.reason));
     for (const PageFigure &figure : plan->figures) {
@@ -188,10 +198,9 @@ void draw(const ReportContent &content, const fs::path &gnuplot, const fs::path 
     }
   }
   drawing.begins("opening pictures, tables and text");
-  for (const std::vector<KeyFigure> *keys : {&content.keys, &content.bed_keys})
+  for (const std::vector<KeyFigure> *keys : {&content.keys, &content.bed_keys, &content.ends_keys})
     for (const KeyFigure &key : *keys)
-      if (!fs::exists(folder / "figures" /
-                      (key.figure.name + ".gp"))) // both pages may open with the same picture
+      if (!fs::exists(folder / "figures" / (key.figure.name + ".gp"))) // pages may open with the same picture
         render(gnuplot, folder / "figures", key.figure);
   for (const PageTable &table : content.tables)
     if (!table.rows.empty()) write_files({{folder / "data" / (table.name + ".csv"), table_csv(table)}});
@@ -227,14 +236,15 @@ ReportOutcome write_report(const ReportOptions &options) {
   const auto element_pages = read_element_tests(folders, folders.left_out);
   std::vector<Run> runs = read_runs(folders.runs, folders.left_out);
   ReportContent content = make_content(std::move(runs), std::move(folders.left_out), options.progress);
-  if (content.results.runs.empty() && content.beds.empty() && element_pages.empty() &&
+  if (content.results.runs.empty() && content.beds.empty() && content.ends.empty() && element_pages.empty() &&
       folders.studies.empty() &&
       std::none_of(content.left_out.begin(), content.left_out.end(),
                    [](const LeftOut &folder) { return folder.cut; }))
     throw UsageError(content.left_out.front().why);
   choose_keys(content);
   CountedProgress drawing(content.figures.figures.size() + content.figures.absent.size() +
-                              content.bed_figures.figures.size() + content.bed_figures.absent.size() + 1,
+                              content.bed_figures.figures.size() + content.bed_figures.absent.size() +
+                              content.ends_figures.figures.size() + content.ends_figures.absent.size() + 1,
                           "pages", options.progress);
   FolderInProgress draft(place);
   const fs::path &folder = draft.path();
@@ -250,6 +260,7 @@ ReportOutcome write_report(const ReportOptions &options) {
   std::vector<FileText> pages = {{folder / "index.html", report_page(content)},
                                  {folder / summary_file, summary_json(content)}};
   if (!content.beds.empty()) pages.emplace_back(folder / "bed.html", bed_page(content));
+  if (!content.ends.empty()) pages.emplace_back(folder / "ends.html", ends_page(content));
   write_files(pages);
   draft.publish();
   return {place / "index.html", count_checks(content.results), judging_commands(content.results),

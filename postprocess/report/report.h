@@ -1,5 +1,5 @@
-// `drumlin report`: makes a folder with index.html, bed.html if there are runs on beds, figures and data from
-// run folders.
+// `drumlin report`: makes a folder with index.html, bed.html if there are runs on beds, ends.html if there
+// are runs of drums with two ends, figures and data from run folders.
 #pragma once
 
 #include <filesystem>

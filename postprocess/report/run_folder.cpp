@@ -124,13 +124,14 @@ Run of_top_layer(Run run) {
 }
 
 /// Fills Run::chain. Returns whether no parameter is absent.
-/// \param contact the run from which k and D are taken
-bool take_chain(Run &run, const Run &contact) {
+/// \param contact the run from which k and D are taken; nullptr: each contact has its own
+bool take_chain(Run &run, const Run *contact) {
   std::vector<std::string> absent;
   ChainParameters &p = run.chain;
-  for (const auto &[name, value, range, help] : chain_numbers)
-    take(value == &ChainParameters::k || value == &ChainParameters::D ? contact : run, name, p.*value,
-         absent);
+  for (const auto &[name, value, range, help] : chain_numbers) {
+    const bool of_contact = value == &ChainParameters::k || value == &ChainParameters::D;
+    if (!of_contact || contact != nullptr) take(of_contact ? *contact : run, name, p.*value, absent);
+  }
   if (!take_transition(run, p.transition, absent)) return false;
   check_parameters(run, p.invalid());
   return true;
@@ -161,12 +162,13 @@ void read_chain_parameters(Run &run) {
                              "reference values or the reference solution, which are of a chain that stands.");
     return;
   }
-  if (run.history.has(ColumnGroup::ends)) {
-    run.missing.emplace_back("not judged: the drum tilts, which neither the reference values nor the "
-                             "reference solution do.");
+  const bool ends = run.history.has(ColumnGroup::ends);
+  if (!take_chain(run, ends ? nullptr : &run)) return;
+  if (ends) {
+    run.kind = RunKind::ends;
+    count_cycles(run);
     return;
   }
-  if (!take_chain(run, run)) return;
   run.kind = RunKind::chain;
   run.case_name = run.text("case", "");
   if (const std::optional<double> speed = run.number("impact_speed")) run.impact_speed = *speed;
@@ -184,7 +186,8 @@ void read_bed_parameters(Run &run) {
   check_parameters(run, deck == "bed"
                             ? ""
                             : fmt::format("deck is '{}'; allowed: bed, since the folder has bed.csv", deck));
-  if (!take_chain(run, of_top_layer(run)))
+  const Run top = of_top_layer(run);
+  if (!take_chain(run, &top))
     throw std::runtime_error(fmt::format("{}: {}", run.folder.string(), run.missing.back()));
   run.kind = RunKind::bed;
   run.case_name = run.text("case", "");
@@ -250,6 +253,7 @@ void read_event_file(Run &run) {
 
 void read_cycle_file(Run &run) {
   const fs::path file = run.folder / "cycles.csv";
+  if (run.kind == RunKind::ends) return; // it says nothing of the ends
   if (!fs::is_regular_file(file)) {
     if (run.kind == RunKind::chain)
       run.missing.emplace_back("cycles.csv is missing: extremes and meter values are taken from samples and "

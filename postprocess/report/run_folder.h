@@ -17,6 +17,7 @@ namespace drumlin::post {
 enum class RunKind {
   chain,  ///< the three-ball chain under excitation
   impact, ///< a single impact without gravity
+  ends,   ///< a chain whose drum has two ends and tilts
   bed,    ///< the roller on a bed of balls
   unknown ///< parameters.csv is missing or incomplete: the run is listed, but not judged
 };

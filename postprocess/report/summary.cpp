@@ -1,5 +1,6 @@
 #include "report/summary.h"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -55,6 +56,27 @@ Json bed_json(const BedResult &bed) {
   return json;
 }
 
+Json ends_json(const EndsResult &result) {
+  const auto numbers = [](const auto &values) {
+    Json json = Json::array();
+    for (const double value : values)
+      json.push_back(std::isfinite(value) ? Json(value) : Json(nullptr));
+    return json;
+  };
+  Json json;
+  json["name"] = result.run.name;
+  json["parameters"] = result.run.parameters;
+  json["cut"] = result.run.cut;
+  json["cycles"] = result.run.complete;
+  json["amplitude"] = numbers(result.amplitude);
+  json["tilt"] = numbers(std::array{result.tilt})[0];
+  json["no_contact"] = numbers(result.no_contact);
+  json["k_1"] = numbers(result.stiffness());
+  json["k_1_of_halves"] = numbers(result.of_halves());
+  json["error_of_ends"] = numbers(result.error());
+  return json;
+}
+
 } // namespace
 
 std::string summary_json(const ReportContent &content) {
@@ -84,6 +106,8 @@ std::string summary_json(const ReportContent &content) {
         {{"folder", folder.folder.string()}, {"why", folder.why}, {"cut", folder.cut}});
   for (const BedResult &bed : content.beds)
     json["beds"].push_back(bed_json(bed));
+  for (const EndsResult &result : content.ends)
+    json["ends"].push_back(ends_json(result));
   json["comparisons"] = Json::array();
   for (const std::vector<Check> *checks : {&results.checks, &results.restitution, &results.words})
     for (const Check &check : *checks)

@@ -44,27 +44,31 @@ constexpr Section sections[] = {
      "+ m3 a3 + (m2 + m3) g + Fe. Here the accelerations are differences of the positions in chain.csv, and "
      "the result must equal the force of the contact law."},
     {"bed", "Roller on a bed of balls", ""},
+    {"ends", "A drum with two ends", ""},
     {"studies", "Studies",
      "What time steps, laws and options cost and what they bring, each on its own page."},
     {"runs", "Runs, commands and versions", ""},
 };
 
-/// Whether a section has a subject in this report: runs on beds have their own page, and the last section is
-/// always there.
+/// Whether a section has a subject in this report: runs on beds and of drums with two ends have
+/// their own pages, and the last section is always there.
 bool belongs(const std::string &section, const ReportContent &content) {
   if (section == "bed") return !content.beds.empty();
   if (section == "engines") return !engine_pairs(content.results).empty();
-  if (section == "studies") return !content.studies.empty() || content.beds.empty();
+  if (section == "ends") return !content.ends.empty();
+  if (section == "studies") return !content.studies.empty() || (content.beds.empty() && content.ends.empty());
   return !content.results.runs.empty() || section == "runs";
 }
 
 Drawing scene_of(const ReportContent &content) {
-  return content.results.runs.empty() && !content.beds.empty() ? Drawing::bed : Drawing::chain;
+  if (!content.results.runs.empty()) return Drawing::chain;
+  return !content.beds.empty() ? Drawing::bed : !content.ends.empty() ? Drawing::two_ends : Drawing::chain;
 }
 
 std::string opening_html(const ReportContent &content) {
   Answer answer = chain_answer(content.results);
   answer.add(bed_answer(content.groups));
+  answer.add(ends_answer(content.ends));
   if (const std::size_t studies = content.studies.size(); studies > 0)
     answer.sentences.push_back(
         {fmt::format("{} {}.", studies,
@@ -79,11 +83,13 @@ std::string opening_html(const ReportContent &content) {
          key_figures_html(content.keys);
 }
 
-std::string beds_html(const std::vector<BedResult> &beds) {
-  std::string s =
-      "<p><a href=\"bed.html\">Figures and commands of these runs</a> are on a page of their own: ";
-  for (std::size_t i = 0; i < beds.size(); ++i)
-    s += (i == 0 ? "" : ", ") + html_escaped(beds[i].run.name);
+/// Names runs that have a page of their own.
+template <class Result>
+std::string runs_html(const std::vector<Result> &results, const char *page) {
+  std::string s = fmt::format(
+      "<p><a href=\"{}\">Figures and commands of these runs</a> are on a page of their own: ", page);
+  for (std::size_t i = 0; i < results.size(); ++i)
+    s += (i == 0 ? "" : ", ") + html_escaped(results[i].run.name);
   return s + ".</p>\n";
 }
 
@@ -121,7 +127,8 @@ std::string left_out_html(const std::vector<LeftOut> &folders) {
 std::string contents_of(const Section &section, const ReportContent &content) {
   const std::string id = section.id;
   std::string s;
-  if (id == "bed") s += beds_html(content.beds);
+  if (id == "bed") s += runs_html(content.beds, "bed.html");
+  if (id == "ends") s += runs_html(content.ends, "ends.html");
   s += section_html(content.figures, id);
   for (const PageTable &table : content.tables)
     if (table.section == id) s += table_html(table);
@@ -149,6 +156,7 @@ std::string report_page(const ReportContent &content) {
     s += contents_of(section, content) + "</section>\n";
   }
   if (!content.beds.empty()) links.push_back({"bed.html", "Page on the beds"});
+  if (!content.ends.empty()) links.push_back({"ends.html", "Page on two ends"});
   return html_page("Roller on soil: report of the runs", made_line(content.versions), links, s);
 }
 

@@ -298,9 +298,6 @@ TEST_F(ExactCommand, ADrumOnUnequalHalvesTilts) {
   EXPECT_EQ(record.at("contacts"), "soil.csv");
   EXPECT_EQ(post::number_from_text(record.at("drum_inertia")), 2138.594);
   EXPECT_EQ(record.at("ends_assumed"), "");
-  ASSERT_EQ(run("report o --out report").status, 0); // compares with no drum that cannot tilt
-  EXPECT_NE(post::read_text(folder_ / "report/index.html").find("not judged: the drum tilts"),
-            std::string::npos);
 }
 
 // Of a machine whose file does not say how it tilts the command says what is assumed.
