@@ -74,9 +74,14 @@ variables_of(const std::string &asked, const std::string &roller_name, const Val
       throw std::invalid_argument(fault);
   const AxlePositions rest = at_rest(contacts, bonds, -v.m2 * v.g, -v.m3 * v.g);
   const double share = v.m2 / static_cast<double>(contacts.size()); // kg, of fix clump with keyword links
-  std::string bond_words;                                           // for fix roller/history
-  for (std::size_t n = 1; n <= bonds.size(); ++n)
-    bond_words += fmt::format("{}bond bond{}", n == 1 ? "" : " ", n);
+  std::string bond_words, bond_rows; // for fix roller/history and drumlin/record
+  for (std::size_t n = 1; n <= bonds.size(); ++n) {
+    const char *between = n == 1 ? "" : " ";
+    const AxleLink &bond = bonds[n - 1];
+    bond_words += fmt::format("{}bond bond{}", between, n);
+    bond_rows += fmt::format("{}bond_{} \"y {:.17g} m, k {:.17g} N/m, c {:.17g} N s/m\"", between, n, bond.y,
+                             bond.k, bond.c);
+  }
   const auto y = [](const AxleLink &link) { return link.y; };
   const auto k = [](const AxleLink &link) { return link.k; };
   std::vector<std::pair<std::string, std::string>> variables = {
@@ -87,6 +92,7 @@ variables_of(const std::string &asked, const std::string &roller_name, const Val
        list_of(contacts, [&](const AxleLink &link) { return link.c / (2.0 * std::sqrt(share * link.k)); })},
       {"bond_count", fmt::format("{}", bonds.size())},
       {"bond_words", bond_words},
+      {"bond_rows", bond_rows},
       {"bond_y", list_of(bonds, y)},
       {"bond_k", list_of(bonds, k)},
       {"bond_c", list_of(bonds, [](const AxleLink &link) { return link.c; })}};

@@ -7,6 +7,7 @@
 #include "chain/analysis.h"
 #include "chain/two_ends.h"
 #include "files/roller.h"
+#include "support/files.h"
 
 #include <gtest/gtest.h>
 
@@ -206,6 +207,19 @@ TEST(RockingFreely, HasTheFrequencyOfTwoSprings) {
   }
   EXPECT_LT(errors.back(), 1e-3);
   EXPECT_NEAR(fitted_order(steps, errors), -2, 0.1);
+}
+
+// The files of a run are all that ./drumlin meter needs: from both ends it has the soil below each half,
+// which are the contacts of the deck where none is lost.
+TEST(RockingMeters, TellTheSoilBelowEachHalf) {
+  const std::string place = number(2.13 / std::sqrt(12.0));
+  const RockingRun rocking(post::read_text(chain_deck("in.chain").parent_path() / "../rollers/Axas2020"),
+                           "y (m),k (N/m),c (N s/m)\n-" + place + ",9e6,58508\n" + place + ",6e6,39006\n");
+  rocking.run({{"cycles", "60"}});
+  const Outcome meter =
+      well(run_program({DRUMLIN_TOOLS, "meter", ".", "--out", "values"}, {}, rocking.folder().path()));
+  EXPECT_TRUE(meter.says("Both together: 9 MN/m below the left half, 6 MN/m below the right one"))
+      << meter.output;
 }
 
 TEST(RockingInLammps, HasTheDigitsOfLiggghts) {
