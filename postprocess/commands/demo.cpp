@@ -259,7 +259,7 @@ private:
                  {"out", (lift_ / "B").string()},
                  {"roller", roller},
                  {"balance", "1"},
-                 {"dumps_per_pass", "20"}}});
+                 {"dumps_per_pass", "25"}}});
   }
 
   void wait_for_drive() {

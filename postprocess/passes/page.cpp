@@ -421,7 +421,7 @@ void write_passes_page(const std::filesystem::path &folder, const Results &resul
     page.figure(animation_of("Fig. 6", one));
   } else {
     page.paragraph("An animation of a pass, and stresses under the passing drum, need more dumps: -var "
-                   "dumps_per_pass 20.");
+                   "dumps_per_pass 25.");
   }
   page.write();
 }
