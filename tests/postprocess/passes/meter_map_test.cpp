@@ -168,7 +168,8 @@ TEST_F(FieldPasses, MakesTablesAndPageFromAFileInFeet) {
   ASSERT_EQ(way.rows(), 47u);
   const std::vector<double> s = way.numbers("s [m]"), left = way.numbers("left [m]");
   for (std::size_t row = 0; row < 24; ++row) { // in the order of the file
-    EXPECT_NEAR(s[row], cell * std::sqrt(13.0) * static_cast<double>(row / 2), 1e-3);
+    const std::size_t along = row / 2;         // two lanes
+    EXPECT_NEAR(s[row], cell * std::sqrt(13.0) * static_cast<double>(along), 1e-3);
     EXPECT_NEAR(left[row], row % 2 == 0 ? cell * std::sqrt(13.0) : 0.0, 1e-3);
   }
   // Pass 2 has 20 to 31 in one lane and to 30 in the other; the cell without a second pass had 21 in the
