@@ -21,11 +21,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// The page of ./drumlin passes in the folder of its tables.
+bool is_passes_page(const fs::path &folder) {
+  return folder.filename() == "passes" && fs::is_regular_file(folder.parent_path() / "passes.csv") &&
+         fs::is_regular_file(folder / "index.html");
+}
+
 // A study; a map or the passes of a run, which have a page of their own, too.
 bool is_study_folder(const fs::path &folder) {
-  return (fs::is_regular_file(folder / "study.txt") || fs::is_regular_file(folder / "regimes.csv") ||
-          (folder.filename() == "passes" && fs::is_regular_file(folder.parent_path() / "passes.csv"))) &&
-         fs::is_regular_file(folder / "index.html");
+  return ((fs::is_regular_file(folder / "study.txt") || fs::is_regular_file(folder / "regimes.csv")) &&
+          fs::is_regular_file(folder / "index.html")) ||
+         is_passes_page(folder);
 }
 
 /// The history file of a run: chain.csv, or bed.csv of a bed.
@@ -35,7 +41,10 @@ fs::path record_of(const fs::path &folder) {
   return !fs::is_regular_file(chain) && fs::is_regular_file(bed) ? bed : chain;
 }
 
-bool is_run_folder(const fs::path &folder) { return fs::is_regular_file(record_of(folder)); }
+/// Not that of a roller that drives and has a page of its passes, which tells more.
+bool is_run_folder(const fs::path &folder) {
+  return fs::is_regular_file(record_of(folder)) && !is_passes_page(folder / "passes");
+}
 
 /// The list to which a folder belongs; nullptr: none.
 std::vector<fs::path> *list_of(const fs::path &folder, ReportFolders &found) {
@@ -55,7 +64,7 @@ bool is_unfinished(const fs::path &folder) {
 /// A run that was cut before it wrote a table; nothing if the folder is none.
 std::optional<LeftOut> cut_at_start(const fs::path &folder) {
   const fs::path file = folder / "parameters.csv";
-  if (!fs::is_regular_file(file)) return std::nullopt;
+  if (!fs::is_regular_file(file) || is_passes_page(folder / "passes")) return std::nullopt;
   try {
     const std::map<std::string, std::string> parameters = read_parameters(file);
     if (parameters.count("ended") != 0)
