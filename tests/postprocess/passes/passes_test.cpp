@@ -398,6 +398,16 @@ TEST_F(Passes, JudgesTheCellsByRulesOfAcceptance) {
       contains(read_text(folder_ / "results/passes/passes/index.html"), {"acceptance criteria hold"}));
 }
 
+// In place of the run, which the report of chains and beds cannot judge.
+TEST_F(Passes, HaveTheirPageInAReport) {
+  write_run("run");
+  ASSERT_TRUE(passes({"run"}).ok());
+  const Outcome report = run_program({DRUMLIN_TOOLS, "report", "run", "--out", "report"}, {}, folder_);
+  ASSERT_TRUE(report.ok()) << report.output;
+  EXPECT_TRUE(fs::exists(folder_ / "report/studies/passes/index.html"));
+  EXPECT_FALSE(contains(read_text(folder_ / "report/index.html"), {"without usable parameters"}));
+}
+
 // A GIF has a graphic control extension for each of its pictures.
 TEST_F(Passes, ShowsAPassInMotion) {
   write_run("run");
