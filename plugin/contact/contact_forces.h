@@ -355,8 +355,8 @@ private:
     if (!at_walls) stepping_->add_damping(contact.j, law.dashpot(overlap));
   }
 
-  /// The normal force of a contact whose stiffness and damping change within the step. Its dashpot is not
-  /// coupled with those of other contacts, since this happens in single steps only.
+  /// The normal force in a step within which stiffness and damping of the contact jump. In such a step, of
+  /// which there are few, its dashpot is solved for alone, not together with those of neighbouring contacts.
   physics::StepResult over_jump(int n, const typename Parameters::Law &after,
                                 const physics::StepMotion &motion, physics::ContactState &state,
                                 const physics::StepContext &context) const {

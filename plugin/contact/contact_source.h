@@ -31,7 +31,8 @@ public:
   /// The coefficients of the law. Valid from the initialization of a run on.
   virtual AnyTable table() const = 0;
   /// The same, to be changed by a fix, of the linear law; nullptr: the deck has another. Valid until the next
-  /// initialization. A fix that changes it must call note_change().
+  /// initialization. A fix that changes coefficients calls
+  /// note_change() afterwards.
   virtual CoefficientTable<physics::LinearContact> *linear_table() = 0;
   void note_change() { ++changes_; }
   /// Number of changes of the coefficients so far.

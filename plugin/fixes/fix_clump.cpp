@@ -124,7 +124,9 @@ int FixClump::common_balls(const Fix &other) const {
 void FixClump::refuse_unequal_velocities() const {
   constexpr double relative = 1e-6, absolute = 1e-9; // of the speed; m/s
   const physics::AxleSums sums = axes_ ? axle_sums() : physics::AxleSums();
-  std::array<double, 6> most{}; // of the velocity along x to z without that of the tilt, and of its negative
+  // Largest velocity of a ball along x, y and z, and largest negative one; the velocity that a ball has
+  // because the body tilts does not count.
+  std::array<double, 6> most{};
   most.fill(-std::numeric_limits<double>::infinity());
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {

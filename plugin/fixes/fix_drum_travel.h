@@ -55,12 +55,13 @@ public:
   double work() const { return work_ + torque_work_; }
   /// Traction, N, and torque, N m, means of the last step, and their works since the first set-up, J.
   std::array<double, 4> drive() const { return {traction_, torque_, work_, torque_work_}; }
-  /// Kinetic energy, J, that the drum has beyond that of its balls: of a given moment of inertia.
+  /// Kinetic energy of rotation, J, that the engine does not see: that of the given moment of inertia less
+  /// that of the balls.
   double further_kinetic() const;
 
-  /// Whether the drum is the clump of this group and rolls, and whether its balls have begun to: from the
-  /// first set-up on they have different velocities.
+  /// Whether the drum rolls and is the clump with this group.
   bool rolls_clump(int its_group) const { return rotation_ != Rotation::none && drum_group_ == its_group; }
+  /// Whether it has been set up: from then on the balls of a clump that rolls have different velocities.
   bool begun() const { return spacing_ != 0.0; }
   /// Torque, N m, about the axle of a force, N, on an owned ball of the drum.
   double torque_about_axle(int i, const double *pull) const;

@@ -293,7 +293,8 @@ void FixRollerHistory::evaluate() {
   add_ground();
 }
 
-/// Tilts and inertias of drum and frame. Collective.
+/// Takes the tilt angles, their rates and the moments of inertia of drum and frame from their clumps.
+/// Collective.
 void FixRollerHistory::follow_tilt() {
   const physics::AxleSums drum = drum_body_->axle_sums(), frame = frame_body_->axle_sums();
   drum_inertia_ = drum.inertia();
@@ -315,8 +316,8 @@ void FixRollerHistory::add_ground() {
   }
 }
 
-/// Forces of excitation and bonds, and the accelerations that follow from all forces. \param moment of the
-/// contacts on a drum that tilts, N m
+/// Adds the forces of exciter and bonds, and computes the accelerations of drum and frame from all forces.
+/// \param moment of the contact forces about the centre of a drum that tilts, N m
 void FixRollerHistory::add_forces_of_partners(double moment) {
   drumlin::RollerForces &forces = state_.forces;
   double drum_force = forces.contact;

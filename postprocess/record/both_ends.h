@@ -1,10 +1,12 @@
 // Records of both ends of a drum: what acts below each half of it.
 //
-// Drum and frame tilt about the way of travel. The equations of motion of both, added, have no bond:
+// Drum and frame tilt about the way of travel. In the sum of their equations of motion the forces of the bond
+// cancel, which leaves the forces of the soil on both halves, F_left and F_right (N, upwards), at the places
+// y_left and y_right (m) along the axle:
 //     F_left + F_right = m2 a2 + m3 a3 + (m2 + m3) g + F_e
 //     y_left F_left + y_right F_right = I2 th2'' + I3 th3'' + y_e F_e
-// with a2 and th2'' from both sensors. No sensor measures the tilt of the frame: its acceleration follows
-// from that of the drum through the bond.
+// Accelerations a2 (m/s2) and th2'' (rad/s2) of the drum follow from both sensors. No sensor measures the
+// tilt of the frame: its acceleration follows from that of the drum through the bond.
 #pragma once
 
 #include "record/record.h"

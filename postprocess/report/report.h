@@ -1,5 +1,5 @@
-// `drumlin report`: makes a folder with index.html, bed.html if there are runs on beds, ends.html if there
-// are runs of drums with two ends, figures and data from run folders.
+// `drumlin report`: makes a folder with pages, figures and data from run folders: index.html, bed.html for
+// runs on beds, ends.html for runs of a drum that tilts.
 #pragma once
 
 #include <filesystem>

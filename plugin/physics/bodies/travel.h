@@ -1,6 +1,6 @@
 #pragma once
-/// A roller that drives. Its programme: its place along a way as a function of time, in passes with ramps of
-/// the speed and pauses between them. And the balls of a drum that rolls as one body.
+/// A roller that drives: where it is at each time, in passes that begin and end with ramps of the speed, with
+/// pauses between them; and where the balls of a drum are that is a clump and rolls.
 
 #include "physics/parameter_checks.h"
 
@@ -135,8 +135,8 @@ private:
   double cosine_, sine_;
 };
 
-/// Velocity, m/s, relative to the axle of a ball of a drum that rotates with the angular velocity `spin`,
-/// rad/s. \param lever m, from the axle to the ball
+/// Velocity of a ball relative to the axle, m/s, in a drum that rotates. \param spin angular velocity of the
+/// drum, rad/s \param lever from the axle to the ball, m
 [[nodiscard]] inline InPlane turning_velocity(double spin, const InPlane &lever) {
   return {spin * lever.up, -spin * lever.along};
 }

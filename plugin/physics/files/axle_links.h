@@ -116,7 +116,7 @@ inline std::string axle_fault(const std::vector<AxleLink> &contacts, const std::
   return {};
 }
 
-/// What tilts of a roller; what its file does not say is assumed, as of Axas2020.
+/// Drum and frame of a roller that may tilt. Values that its file does not have are those of Axas2020.
 struct AxleMachine {
   double width = 0.0;          ///< of the drum [m]
   double drum_inertia = 0.0;   ///< about the way of travel [kg m2]
