@@ -10,9 +10,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -189,17 +189,13 @@ inline AxleLink contact(const std::string &text, std::size_t line, const std::st
   for (const Column &column : columns) {
     std::string cell;
     std::getline(cells, cell, ',');
-    char *end = nullptr;
-    const double value = std::strtod(cell.c_str(), &end);
-    const bool decimal = end != cell.c_str() &&
-                         std::string(end).find_first_not_of(" \t") == std::string::npos &&
-                         cell.find_first_of("xXnN") == std::string::npos;
-    if (!decimal || !((value >= column.least && value <= column.most) || (column.zero_too && value == 0.0)))
+    const std::optional<double> value = roller_file::decimal(cell);
+    if (!value || !((*value >= column.least && *value <= column.most) || (column.zero_too && *value == 0.0)))
       fail(column.name + in_line, file, cell,
            (column.zero_too ? "0, or a number from " : "a number from ") +
                roller_file::number_text(column.least) + " to " + roller_file::number_text(column.most) +
                " [" + column.unit + "]" + column.where);
-    result.*column.value = value;
+    result.*column.value = *value;
   }
   if (std::string more; std::getline(cells, more, ','))
     fail("row" + in_line, file, text, std::string("three numbers, ") + contact_columns);

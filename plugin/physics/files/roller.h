@@ -164,6 +164,17 @@ inline std::string number_text(double value) {
   return text.str();
 }
 
+/// The number of a text that is a whole decimal number, blanks behind it allowed; nothing of every other
+/// text, also of hexadecimal numbers, nan and inf.
+inline std::optional<double> decimal(const std::string &text) {
+  char *end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || std::string(end).find_first_not_of(" \t") != std::string::npos ||
+      text.find_first_of("xXnN") != std::string::npos)
+    return std::nullopt;
+  return value;
+}
+
 using Values = std::map<std::string, double>;
 
 /// What the lines of a roller file say, in SI units.
@@ -211,15 +222,13 @@ inline void Lines::add(const std::string &text, const std::string &where) {
   const auto known =
       std::find_if(list.begin(), list.end(), [&](const Quantity &one) { return one.name == name; });
   if (known == list.end()) fail("name in " + where, name, "setting, " + names_of(list));
-  char *end = nullptr;
-  const double value = std::strtod(number.c_str(), &end);
-  const bool decimal = !number.empty() && *end == '\0' && number.find_first_of("xXnN") == std::string::npos;
+  const std::optional<double> value = decimal(number);
   const auto unit_of = std::find_if(known->units.begin(), known->units.end(),
                                     [&](const Unit &one) { return one.name == unit; });
   const std::string both = number + (unit.empty() ? "" : " ") + unit;
-  if (!decimal || unit_of == known->units.end())
+  if (!value || unit_of == known->units.end())
     fail(name + " in " + where, both, "a number and its unit, " + names_of(known->units));
-  const double in_si = value * unit_of->factor;
+  const double in_si = *value * unit_of->factor;
   constexpr double smallest = 1e-9;
   if (known->either_side) {
     const std::string limit = number_text(known->largest / unit_of->factor);

@@ -5,9 +5,9 @@
 #include "roller.h"
 
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -53,14 +53,10 @@ inline WayRow row(const std::string &text, std::size_t line, const std::string &
   for (const Column &column : columns) {
     std::string cell;
     std::getline(cells, cell, ',');
-    char *end = nullptr;
-    const double value = std::strtod(cell.c_str(), &end);
-    const bool decimal = end != cell.c_str() &&
-                         std::string(end).find_first_not_of(" \t") == std::string::npos &&
-                         cell.find_first_of("xXnN") == std::string::npos;
-    if (!decimal || !(value >= column.smallest && value <= column.largest))
+    const std::optional<double> value = roller_file::decimal(cell);
+    if (!value || !(*value >= column.smallest && *value <= column.largest))
       fail(column.name, line, file, cell, column.allowed);
-    result.*column.value = value;
+    result.*column.value = *value;
   }
   if (std::string more; std::getline(cells, more, ','))
     fail("row", line, file, text, std::string("three numbers, ") + header);
