@@ -174,21 +174,31 @@ TEST_P(DrivenChain, BalancesItsEnergyWithTheWorkOfTheDrive) {
   }
 }
 
-// Nothing else acts on the chain along the way: what the changes of the soil take is the work of the drive,
-// and the integral of k'(s) d^2 / 2 is above zero onto stiffer soil.
+// Nothing else acts on the chain along the way: the work of the drive is what the changes of the soil take,
+// the integral of d^2 / 2 over k, here by the overlaps of chain.csv and the way as it is written below.
 TEST(DrivenChainInLiggghts, CountsTheWorkOfTheSoilsChanges) {
   const Scratch folder;
   std::ofstream(folder / "way.csv") << post::way_text(
       {{0, 40e6, 0.2}, {0.3, 40e6, 0.2}, {0.3, 80e6, 0.2}, {0.7, 120e6, 0.2}});
+  const auto stiffness = [](double s) { return s < 0.3 ? 40e6 : 80e6 + (s - 0.3) / 0.4 * 40e6; };
   well(run_deck(test_deck("way_work.in"),
                 {{"here", (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/chain").string()},
                  {"way", (folder / "way.csv").string()},
                  {"speed", "1"},
                  {"stepping", "second"},
+                 {"steps_per_cycle", "2000"},
+                 {"samples_per_cycle", "2000"},
                  {"out", folder.path().string()}},
                 folder.path()));
+  const post::ChainHistory run = post::read_chain(folder / "chain.csv");
+  double expected = 0;
+  for (std::size_t i = 1; i < run.s.size(); ++i) {
+    const double overlap = std::max(0.0, -0.5 * (run.x_drum[i - 1] + run.x_drum[i]));
+    expected += 0.5 * overlap * overlap * (stiffness(run.s[i]) - stiffness(run.s[i - 1]));
+  }
   const double work = post::read_table(folder / "work.csv").numbers("work").front();
-  EXPECT_GT(work, 1.0);
+  EXPECT_GT(expected, 1.0);
+  EXPECT_NEAR(work, expected, 1e-2 * expected);
   const double drive = post::read_table(folder / "cycles.csv").numbers("work_travel").back();
   EXPECT_NEAR(work, drive, 1e-9 * drive);
 }

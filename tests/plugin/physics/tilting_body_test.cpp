@@ -69,8 +69,9 @@ TEST(TiltingBody, HasMassInertiaAndMotionOfItsBalls) {
   }
 }
 
-// The shares have the force and the moment of the forces, keep the balls on the axle, do the same work, and
-// are shared out anew without change.
+// The shares have the force and the moment of the forces and do the same work. They keep the balls on a
+// straight axle, whose places along it do not change relative to each other: the accelerations of all balls
+// lie on the line through those of two. No other shares do.
 TEST(TiltingBody, SharesOutForceAndMoment) {
   for (unsigned seed = 1; seed < 50; ++seed) {
     Body body(seed);
@@ -83,17 +84,25 @@ TEST(TiltingBody, SharesOutForceAndMoment) {
       work += dot(ball.f, ball.v);
     }
     EXPECT_NEAR(sums.moment(), moment, 1e-12);
+    std::vector<Vec3> accelerations;
+    std::vector<double> places;
     double shared_work = 0;
     for (Ball &ball : body.balls) {
       const double s = dot(ball.x, body.axes.axle);
       ball.f = sums.share(body.axes, ball.mass, s, sums.force(), sums.moment());
-      const Vec3 expected =
-          sum(scaled(1 / body.mass, force), moment / body.inertia * (s - body.centre), body.axes.rise);
-      for (std::size_t a = 0; a < 3; ++a)
-        EXPECT_NEAR(ball.f[a] / ball.mass, expected[a], 1e-12);
+      accelerations.push_back(scaled(1 / ball.mass, ball.f));
+      places.push_back(s);
       shared_work += dot(ball.f, ball.v);
     }
     EXPECT_NEAR(shared_work, work, 1e-12);
+    const Vec3 slope = scaled(1 / (places[1] - places[0]), sum(accelerations[1], -1, accelerations[0]));
+    EXPECT_NEAR(dot(slope, body.axes.axle), 0, 1e-12);
+    EXPECT_NEAR(dot(slope, body.axes.axis), 0, 1e-12);
+    for (std::size_t n = 2; n < places.size(); ++n) {
+      const Vec3 on_line = sum(accelerations[0], places[n] - places[0], slope);
+      for (std::size_t a = 0; a < 3; ++a)
+        EXPECT_NEAR(accelerations[n][a], on_line[a], 1e-11);
+    }
     const AxleSums again = body.sums();
     EXPECT_NEAR(again.moment(), moment, 1e-12);
     for (std::size_t a = 0; a < 3; ++a)
