@@ -3,6 +3,7 @@ forces as text.
 
     pvpython postprocess/paraview/bed.py results/bed/B/vtk --png bed.png --time 0.02
     pvpython postprocess/paraview/bed.py results/bed/B/vtk --animation bed.avi --cycle 1 --colour pressure
+    pvpython postprocess/paraview/bed.py results/drive/B/vtk --animation drive.png --follow 2
 
 The folder is the one that ./drumlin vtk has written. Without a screen, run pvpython by xvfb-run. In ParaView
 itself: open balls.pvd of that folder, then Macros > Import new macro (once) and this file; it takes the folder
@@ -384,11 +385,12 @@ def show_text(balls, scene, contacts, view, font):
         if not scene.flat:
             lines += ";\nthe soil in front\nis not drawn"
         key = pv.Text(registrationName="width of the lines", Text=lines % (1e-3 * full, 1e-3 * LEAST_FORCE * full))
-        write_text(key, view, font, [1.0 - 0.8 * scene.bar_share, 0.16])
+        write_text(key, view, font, [1.0 - 0.8 * scene.bar_share, 0.27 if scene.flat else 0.16])
 
 
-def show(folder, colour="speed", contacts=True, most=None, cycle=None, size=None):
-    """Shows the run in the active view, or in a new one; returns view, its size, the times and the scene."""
+def show(folder, colour="speed", contacts=True, most=None, cycle=None, size=None, follow=None):
+    """Shows the run in the active view, or in a new one; returns view, its size, the times, the scene and the
+    balls."""
     scene = Scene(folder)
     contacts = contacts and os.path.isfile(os.path.join(folder, "contacts.pvd"))
     times, files = whole_steps(folder, ["balls", "contacts"] if contacts else ["balls"])
@@ -405,20 +407,45 @@ def show(folder, colour="speed", contacts=True, most=None, cycle=None, size=None
     view.UseColorPaletteForBackground = 0
     view.Background = [1.0, 1.0, 1.0]
     view.OrientationAxesVisibility = 0
-    size = look(view, scene, size)
-    scene.bar_share = BAR_BAND * size[1] / size[0]
-    font = max(12, size[1] // 54)
-    scene.line = font / size[1]  # height of a line of text
     balls = reader(folder, "balls", times, files["balls"])
     balls.UpdatePipeline(times[0])
     if balls.GetDataInformation().GetNumberOfPoints() == 0:
         raise Fault("'%s' cannot be read; allowed: a file that ./drumlin vtk has written" % files["balls"][0])
+    if follow is not None:
+        scene.seen_from = place_of_drum(balls, times[0])
+        scene.bounds[0][0], scene.bounds[1][0] = scene.seen_from - 0.5 * follow, scene.seen_from + 0.5 * follow
+    size = look(view, scene, size)
+    scene.bar_share = BAR_BAND * size[1] / size[0]
+    font = max(12, size[1] // 54)
+    scene.line = font / size[1]  # height of a line of text
     show_soil(balls, scene, colour, most, view, font)
     show_roller(balls, scene, view, font)
     if contacts:
         show_contacts(reader(folder, "contacts", times, files["contacts"]), scene, view)
     show_text(balls, scene, contacts, view, font)
-    return view, size, times, scene
+    return view, size, times, scene, balls
+
+
+def place_of_drum(balls, time):
+    """Along the way."""
+    drum = of_type(balls, DRUM, "drum at a time")
+    drum.UpdatePipeline(time)
+    low, high = drum.GetDataInformation().GetBounds()[:2]
+    pv.Delete(drum)
+    return 0.5 * (low + high)
+
+
+def follow_drum(view, scene, balls):
+    """Moves camera and names along the way, to where the drum is at the time of the view."""
+    by = place_of_drum(balls, view.ViewTime) - scene.seen_from
+    scene.seen_from += by
+    view.CameraPosition = [view.CameraPosition[0] + by, *view.CameraPosition[1:]]
+    view.CameraFocalPoint = [view.CameraFocalPoint[0] + by, *view.CameraFocalPoint[1:]]
+    for name in ("drum label", "frame label"):
+        text = pv.FindSource(name)
+        if text is not None:
+            shown = pv.GetDisplayProperties(text, view)
+            shown.BillboardPosition = [shown.BillboardPosition[0] + by, *shown.BillboardPosition[1:]]
 
 
 def selected_folder():
@@ -461,6 +488,8 @@ def main(words):
                         help="only this cycle of the excitation, from 1 (default: all)")
     parser.add_argument("--png", metavar="FILE", help="a picture")
     parser.add_argument("--animation", metavar="FILE", help="all steps: .avi or .ogv, or .png for a numbered series")
+    parser.add_argument("--follow", type=above_zero(float), metavar="M",
+                        help="this length of the way around the drum [m], wherever it drives (default: the whole bed)")
     parser.add_argument("--no-contacts", action="store_true", help="balls alone")
     parser.add_argument("--size", type=above_zero(int), nargs=2, metavar=("W", "H"),
                         help="pixels (default: 1080 high, as wide as the bed needs)")
@@ -473,16 +502,28 @@ def main(words):
             raise Fault("%s is '%s'; allowed: a file ending in %s" % (option, file, ", ".join(endings)))
         if file and not os.access(os.path.dirname(os.path.abspath(file)), os.W_OK):  # ParaView itself would continue
             raise Fault("%s is '%s'; allowed: a file in a folder that can be written to" % (option, file))
-    view, size, times, scene = show(given.folder, given.colour, not given.no_contacts, given.max,
-                                     given.cycle, given.size)
+    if given.follow and given.animation and not given.animation.endswith(".png"):
+        raise Fault("--animation is '%s'; allowed: with --follow a file ending in .png, for a numbered series"
+                    % given.animation)
+    view, size, times, scene, balls = show(given.folder, given.colour, not given.no_contacts, given.max,
+                                           given.cycle, given.size, given.follow)
     view.ViewSize = size
     animation = pv.GetAnimationScene()
     animation.UpdateAnimationUsingDataTimeSteps()  # as ParaView with windows does by itself
     animation.AnimationTime = view.ViewTime = time_of_picture(scene, times, given.time)
+    if given.follow:
+        follow_drum(view, scene, balls)
     if given.png:
         pv.SaveScreenshot(given.png, view, ImageResolution=size, CompressionLevel="9")
         print("%s: t = %.6g s" % (given.png, view.ViewTime))
-    if given.animation:
+    if given.animation and given.follow:
+        stem, ending = os.path.splitext(given.animation)
+        for number, time in enumerate(times):
+            animation.AnimationTime = view.ViewTime = time
+            follow_drum(view, scene, balls)
+            pv.SaveScreenshot("%s.%04d%s" % (stem, number, ending), view, ImageResolution=size)
+        print("%s: %d pictures" % (given.animation, len(times)))
+    elif given.animation:
         pv.SaveAnimation(given.animation, view, ImageResolution=size, FrameRate=25, FrameWindow=[0, len(times) - 1])
         print(given.animation)
 
