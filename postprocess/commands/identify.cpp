@@ -162,6 +162,23 @@ void make_parent_of(const fs::path &place, const Arguments &arguments) {
   }
 }
 
+/// Writes what was found, the folder as a whole, and prints its first lines. \param page writes the page into
+/// a folder
+template <class Found, class Page>
+void publish(const Arguments &arguments, const fs::path &place, const Record &record, const Found &found,
+             const Page &page) {
+  make_parent_of(place, arguments);
+  FolderInProgress draft(place);
+  page(draft.path());
+  write_files({{draft.path() / table_name, identification_csv(found)},
+               {draft.path() / "parameters.csv", settings_of(record)}});
+  draft.publish();
+  for (const std::string &line : record.notes)
+    fmt::print("{}\n", line);
+  fmt::print("{}: {:.4g} cycles at {:.4g} Hz, 95 % confidence intervals\n", found.file.string(), found.cycles,
+             found.frequency);
+}
+
 /// A record of both ends of the drum.
 void run_two_sided(const Arguments &arguments, const RecordSetting &setting, const fs::path &place,
                    const Record &record) {
@@ -176,16 +193,9 @@ void run_two_sided(const Arguments &arguments, const RecordSetting &setting, con
   TimedProgress progress;
   const TwoSidedRecord found = identify_two_sided(
       record, setting, [&progress](const std::string &what) { progress.tell("{}", what); });
-  make_parent_of(place, arguments);
-  FolderInProgress draft(place);
-  write_identification_page(draft.path(), found, roller_words(record.parameters));
-  write_files({{draft.path() / table_name, identification_csv(found)},
-               {draft.path() / "parameters.csv", settings_of(record)}});
-  draft.publish();
-  for (const std::string &line : record.notes)
-    fmt::print("{}\n", line);
-  fmt::print("{}: {:.4g} cycles at {:.4g} Hz, 95 % confidence intervals\n", found.file.string(), found.cycles,
-             found.frequency);
+  publish(arguments, place, record, found, [&](const fs::path &folder) {
+    write_identification_page(folder, found, roller_words(record.parameters));
+  });
   for (const std::string &line : identification_answer(found))
     fmt::print("  {}\n", line);
   fmt::print("{}\n", (fs::path(arguments.out) / "index.html").string());
@@ -218,23 +228,16 @@ void run(const Arguments &arguments) {
   found.machine = machine_part(tolerances, arguments.record, setting, way, record, found);
   std::optional<LumpedComparison> compared;
   if (arguments.compare) compared = compare_lumped(record, found);
-  make_parent_of(place, arguments);
-  FolderInProgress draft(place);
-  write_identification_page(draft.path(), found, compared ? &*compared : nullptr,
-                            roller_words(record.parameters));
-  write_files({{draft.path() / table_name, identification_csv(found)},
-               {draft.path() / "parameters.csv", settings_of(record)}});
-  draft.publish();
-  for (const std::string &line : record.notes)
-    fmt::print("{}\n", line);
-  fmt::print("{}: {:.4g} cycles at {:.4g} Hz, 95 % confidence intervals\n", found.file.string(), found.cycles,
-             found.frequency);
+  publish(arguments, place, record, found, [&](const fs::path &folder) {
+    write_identification_page(folder, found, compared ? &*compared : nullptr,
+                              roller_words(record.parameters));
+  });
   if (doubt) fmt::print("  The result contradicts itself: {}.\n", *doubt);
   for (const std::string &line : identification_answer(found))
     fmt::print("  {}\n", line);
   if (!found.windows.empty()) {
     const LawEstimate &law = found.whole.law;
-    const std::string words = smear_words(record, found.windows.back().begin, found.windows.back().end,
+    const std::string words = averaging_words(record, found.windows.back().begin, found.windows.back().end,
                                           std::pair(law.k.mean, law.c.mean));
     if (!words.empty()) fmt::print("  {}\n", words);
   }

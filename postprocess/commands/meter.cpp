@@ -170,7 +170,7 @@ void run(const Arguments &arguments) {
   for (const std::string &line : result.record.notes)
     fmt::print("{}\n", line);
   fmt::print("{}: {}\n{}\n", result.record.file.string(), answer_line(result), source_words(result));
-  for (const std::string &words : {width_words(result), smear_words(result)})
+  for (const std::string &words : {width_words(result), averaging_words(result)})
     if (!words.empty()) fmt::print("{}\n", words);
   print_windows(result);
   if (result.ends)

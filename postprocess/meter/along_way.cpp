@@ -190,14 +190,14 @@ std::optional<double> memory_time(const Record &record, double k, double c) {
   return hundredth / slowest;
 }
 
-std::string smear_words(const Record &record, double begin, double end,
-                        const std::optional<std::pair<double, double>> &soil) {
+std::string averaging_words(const Record &record, double begin, double end,
+                            const std::optional<std::pair<double, double>> &soil) {
   if (record.s.empty()) return {};
   const double driven = std::abs(place_at(record, end) - place_at(record, begin));
   const double speed = driven / (end - begin);
   if (!(driven > 0.0)) return {};
   std::string text =
-      fmt::format("A window smears the soil over {:.3g} m of the way that the roller drives in it, "
+      fmt::format("A window averages the soil over {:.3g} m of the way that the roller drives in it, "
                   "at {:.3g} m/s",
                   driven, speed);
   const std::optional<double> memory = soil ? memory_time(record, soil->first, soil->second) : std::nullopt;

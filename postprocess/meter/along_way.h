@@ -1,5 +1,5 @@
 // Records of a roller that drives: the part of its way that counts, windows of a length of the way, and over
-// which length a window smears the soil. Places are those of the column s of a run.
+// which length a window averages the soil. Places are those of the column s of a run.
 #pragma once
 
 #include "meter/values.h"
@@ -45,10 +45,10 @@ void add_places(std::vector<MeterWindow> &windows, const Record &record);
 /// bond, or if it does not fall.
 std::optional<double> memory_time(const Record &record, double k, double c);
 
-/// Over which length of the way windows of so many seconds smear the soil, as a sentence; empty for a record
+/// Over which length of the way windows of so many seconds average the soil, as a sentence; empty for a record
 /// without places, or of a roller that stands.
 /// \param soil k [N/m] and c [N s/m], if they are known
-std::string smear_words(const Record &record, double begin, double end,
+std::string averaging_words(const Record &record, double begin, double end,
                         const std::optional<std::pair<double, double>> &soil);
 
 } // namespace drumlin::post

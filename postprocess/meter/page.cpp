@@ -274,11 +274,11 @@ std::string source_words(const MeterResult &result) {
       "Harmonics are from samples of acceleration; a jump may lie anywhere between two of them: {}.", off);
 }
 
-std::string smear_words(const MeterResult &result) {
+std::string averaging_words(const MeterResult &result) {
   const MeterWindow &last = result.windows.back();
   std::optional<std::pair<double, double>> soil;
   if (last.k_1 && last.c_1 && *last.k_1 > 0.0) soil.emplace(*last.k_1, *last.c_1);
-  return smear_words(result.record, last.begin, last.end, soil);
+  return averaging_words(result.record, last.begin, last.end, soil);
 }
 
 std::string width_words(const MeterResult &result) {
@@ -398,7 +398,7 @@ void write_meter_page(const std::filesystem::path &folder, const MeterResult &re
                           result.cycles.omega / (2.0 * pi), answer_line(result)));
   if (const std::string words = roller_words(result.record.parameters); !words.empty()) page.answer(words);
   page.answer(source_words(result));
-  for (const std::string &words : {width_words(result), smear_words(result)})
+  for (const std::string &words : {width_words(result), averaging_words(result)})
     if (!words.empty()) page.answer(words);
   if (result.ends)
     for (const std::string &line : answer_lines(*result.ends, result.windows.back()))

@@ -153,7 +153,7 @@ TEST_F(IdentifyCommand, TakesAPartOfTheWay) {
       const Outcome outcome =
           identify({"driven", "--from-place", from, "--to-place", to, "--of-pass", pass, "--window", "1m"});
       well(outcome);
-      EXPECT_TRUE(printed(outcome, "A window smears the soil over"));
+      EXPECT_TRUE(printed(outcome, "A window averages the soil over"));
       EXPECT_TRUE(printed(outcome, "falls to a hundredth"));
       const post::Table table = post::read_table(scratch_ / "results/identify/identify.csv");
       EXPECT_NEAR(table.numbers("k [N/m]")[0], k, 1e-3 * k);

@@ -186,10 +186,10 @@ TEST_F(MeterCommand, TakesWindowsByDistanceAlongTheWay) {
       EXPECT_NEAR(driven.numbers(column).back(), standing.numbers(column).back(),
                   2e-3 * std::abs(standing.numbers(column).back()))
           << column << part.k;
-    EXPECT_TRUE(printed(outcome, fmt::format("A window smears the soil over {:.3g} m", cycles / frequency)));
+    EXPECT_TRUE(printed(outcome, fmt::format("A window averages the soil over {:.3g} m", cycles / frequency)));
   }
   EXPECT_TRUE(printed(meter({"stands"}), "CMV"));
-  EXPECT_FALSE(meter({"stands"}).says("smears"));
+  EXPECT_FALSE(meter({"stands"}).says("averages the soil"));
   const auto refused = [&](std::vector<std::string> words, const char *says) {
     const Outcome outcome = meter(std::move(words));
     EXPECT_FALSE(outcome.ok());
