@@ -34,11 +34,13 @@ std::vector<double> values(Arguments &in, const std::string &name, Range range, 
   }
   if (numbers.size() == 1) numbers.resize(static_cast<std::size_t>(layers), numbers[0]);
   if (numbers.size() != static_cast<std::size_t>(layers))
-    in.fail(name, text,
-            layers == 1
-                ? "one number, since the bed has one layer"
-                : fmt::format("one number, or {} separated by commas, one for each layer, the lowest first",
-                              layers));
+    in.fail(
+        name, text,
+        layers == 1
+            ? "one number, since the bed has one layer"
+            : fmt::format("one number, or {} separated by commas, one for each layer, the lowest first, and "
+                          "then one for each spot",
+                          layers));
   return numbers;
 }
 

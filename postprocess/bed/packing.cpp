@@ -415,23 +415,27 @@ std::string poured_list(const std::vector<BedLayer> &layers, double Pouring::*nu
   return list;
 }
 
-/// What the header notes of layers of a wanted density.
-std::string poured_notes(const std::vector<BedLayer> &layers) {
+/// What the header notes of layers of a wanted density. A spot is poured as the lowest layer.
+std::string poured_notes(const std::vector<BedLayer> &layers, std::size_t spots) {
   if (std::any_of(layers.begin(), layers.end(), [](const BedLayer &layer) { return !layer.pouring; }))
     return {};
   std::string notes;
   for (const auto &[name, number] :
        {std::pair{"relative_density", &Pouring::relative_density}, std::pair{"e_loosest", &Pouring::loosest},
-        std::pair{"e_densest", &Pouring::densest}, std::pair{"pour_friction", &Pouring::friction},
-        std::pair{"pour_rolling", &Pouring::rolling}})
+        std::pair{"e_densest", &Pouring::densest}})
     notes += fmt::format("# drumlin note {} {}\n", name, poured_list(layers, number));
+  std::vector<BedLayer> poured = layers;
+  poured.insert(poured.end(), spots, layers.front());
+  for (const auto &[name, number] :
+       {std::pair{"pour_friction", &Pouring::friction}, std::pair{"pour_rolling", &Pouring::rolling}})
+    notes += fmt::format("# drumlin note {} {}\n", name, poured_list(poured, number));
   return notes;
 }
 
 /// \param parts the options of each layer, which have the same box
 /// \param more further comment lines of the file's header: what is noted of the layers
 std::string data_text(const std::vector<PackingOptions> &parts, const std::string &more, double density,
-                      const Packing &packing) {
+                      const Packing &packing, const std::vector<Spot> &spots = {}) {
   const PackingOptions &options = parts.front();
   const bool flat = options.dimensions() == 2;
   std::string grading;
@@ -460,15 +464,22 @@ std::string data_text(const std::vector<PackingOptions> &parts, const std::strin
                  "# drumlin note d50 {}\n# drumlin note C_u {}\n",
                  grading, smallest, largest, medians, uniformities);
   text += more;
-  fmt::format_to(out, "\n{} atoms\n{} atom types\n\n", packing.balls.size(), parts.size() + roller_types);
+  fmt::format_to(out, "\n{} atoms\n{} atom types\n\n", packing.balls.size(),
+                 parts.size() + spots.size() + roller_types);
   fmt::format_to(out, "{:.17g} {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n",
                  -0.5 * options.width, 0.5 * options.width, top, -0.5 * depth, 0.5 * depth);
   fmt::format_to(out, "\nAtoms\n\n"); // ID, type, diameter, density, x, y, z
   std::size_t id = 0;
-  for (const PackedBall &ball : packing.balls)
-    fmt::format_to(out, "{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", ++id, type_of(ball.layer),
-                   2.0 * ball.radius, density, ball.centre[0] - 0.5 * options.width, ball.centre[2],
-                   flat ? 0.0 : ball.centre[1] - 0.5 * depth);
+  for (const PackedBall &ball : packing.balls) {
+    const double x = ball.centre[0] - 0.5 * options.width;
+    const auto spot = std::find_if(spots.begin(), spots.end(),
+                                   [x](const Spot &one) { return one.from <= x && x <= one.to; });
+    const int soil = ball.layer == 0 && spot != spots.end()
+                         ? static_cast<int>(parts.size()) + static_cast<int>(spot - spots.begin())
+                         : ball.layer;
+    fmt::format_to(out, "{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", ++id, type_of(soil),
+                   2.0 * ball.radius, density, x, ball.centre[2], flat ? 0.0 : ball.centre[1] - 0.5 * depth);
+  }
   return text;
 }
 
@@ -486,18 +497,22 @@ std::string bed_data(const PackingOptions &options, double density, const Packin
   return data_text({options}, "", density, packing);
 }
 
-std::string bed_data(const std::vector<BedLayer> &layers, double density, const Packing &packing) {
+std::string bed_data(const std::vector<BedLayer> &layers, double density, const Packing &packing,
+                     const std::vector<Spot> &spots) {
   std::vector<PackingOptions> parts;
-  std::string thicknesses;
+  std::string thicknesses, places;
   for (const BedLayer &layer : layers) {
     parts.push_back(layer.packing);
     thicknesses += fmt::format("{}{}", thicknesses.empty() ? "" : ",", layer.thickness);
   }
+  for (const Spot &spot : spots)
+    places += fmt::format("{}{}:{}", places.empty() ? "" : ",", spot.from, spot.to);
   return data_text(parts,
                    fmt::format("# drumlin note layers {}\n# drumlin note layer_thicknesses {}\n",
                                layers.size(), thicknesses) +
-                       poured_notes(layers),
-                   density, packing);
+                       (spots.empty() ? "" : fmt::format("# drumlin note spots {}\n", places)) +
+                       poured_notes(layers, spots.size()),
+                   density, packing, spots);
 }
 
 } // namespace drumlin::post

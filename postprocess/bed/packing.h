@@ -118,6 +118,11 @@ Packing pack_balls(const PackingOptions &options, const std::function<void(std::
 Packing pack_layers(const std::vector<BedLayer> &layers,
                     const std::function<void(std::size_t)> &progress = {});
 
+/// A part of the lowest layer along the way, whose balls have contacts of their own.
+struct Spot {
+  double from, to; ///< m from the middle of the box
+};
+
 /// The text of the data file for the engine's read_data: balls of type 1 (types 2 and 3 are drum and frame),
 /// and of type 4, 5, ... for the second and further layers, in a box with space for the roller above them. y
 /// is up; x = 0 and z = 0 are the middle. Density of a ball in kg/m3, of a disc 1 m thick. The header notes
@@ -126,8 +131,10 @@ std::string bed_data(const PackingOptions &options, double density, const Packin
 /// The same for a bed of layers. Of the notes the grading is that of each layer, the lowest first, joined by
 /// +, d50 and C_u are those of each layer, separated by commas, and the radii are of all balls; the number of
 /// layers and their thicknesses are noted, too, and, if all have a wanted density, their relative densities,
-/// the void ratios of their loosest and densest packings, and how they are poured.
-std::string bed_data(const std::vector<BedLayer> &layers, double density, const Packing &packing);
+/// the void ratios of their loosest and densest packings, and how they are poured. Balls of spots have the
+/// types behind those of the layers.
+std::string bed_data(const std::vector<BedLayer> &layers, double density, const Packing &packing,
+                     const std::vector<Spot> &spots = {});
 
 /// The balls of a packing sorted by size.
 Sieving sieved(const Packing &packing, int dimensions);

@@ -58,7 +58,7 @@ struct Arguments {
   std::string balls, density, seed, grading, out = BedRequest().out.string();
   std::array<std::string, number_options.size()> numbers;
   std::optional<std::string> sieve, cut;
-  std::vector<std::string> layers, relative_densities, packings;
+  std::vector<std::string> layers, spots, relative_densities, packings;
   bool has_balls = false;        ///< whether --balls was given
   std::string instead_of_layers; ///< an option that was given and says the same as --layer; empty: none
   std::string instead_of_sieve;  ///< an option that was given and says the sizes in another way; empty: none
@@ -211,6 +211,38 @@ void judge_effects(const Arguments &arguments) {
                 fmt::format("without {}: the curves say the sizes", arguments.instead_of_sieve)));
 }
 
+/// Sets the spots from `--spot`, in the order of the way.
+void judge_spots(const Arguments &arguments, BedRequest &request) {
+  if (!arguments.spots.empty() && request.layers.empty())
+    throw UsageError(refusal("--spot", arguments.spots.front(), "only with --layer"));
+  if (request.layers.size() + arguments.spots.size() > most_layers)
+    throw UsageError(
+        refusal("--spot", arguments.spots.back(), fmt::format("at most {} layers and spots", most_layers)));
+  double from = -0.5 * request.packing.width;
+  for (const std::string &text : arguments.spots) {
+    const std::size_t colon = text.find(':');
+    const double least = 2.0 * request.layers.front().bed.packing.largest_radius();
+    const Range way = {from, 0.5 * request.packing.width, "m"};
+    const auto refused = [&] {
+      return UsageError(refusal("--spot", text,
+                                fmt::format("FROM:TO, {} from the middle, in the order of the way, each at "
+                                            "least {:g} m long: the largest ball of the lowest layer",
+                                            way.words(), least)));
+    };
+    if (colon == std::string::npos) throw refused();
+    Spot spot{};
+    try {
+      spot = {number_option("--spot", text.substr(0, colon), way),
+              number_option("--spot", text.substr(colon + 1), way)};
+    } catch (const UsageError &) {
+      throw refused();
+    }
+    if (!(spot.to - spot.from >= least)) throw refused();
+    request.spots.push_back(spot);
+    from = spot.to;
+  }
+}
+
 /// Sets the layers from `--layer`.
 void judge_layers(const Arguments &arguments, BedRequest &request) {
   if (arguments.layers.empty()) {
@@ -280,6 +312,7 @@ void run(const Arguments &arguments) {
     options.grading = grading_from_name(arguments.grading);
     judge_sieve(arguments, request);
     judge_layers(arguments, request);
+    judge_spots(arguments, request);
   } catch (const std::invalid_argument &fault) {
     throw UsageError(fmt::format("--{}", fault.what()));
   }
@@ -429,7 +462,7 @@ void write_bed(const BedRequest &request) {
       write_files({{*files / (figure + ".csv"), grading_csv(gradings)}});
     }
     write_files({{out, layers.empty() ? bed_data(request.packing, request.density, packing)
-                                      : bed_data(layers, request.density, packing)}});
+                                      : bed_data(layers, request.density, packing, request.spots)}});
   } catch (const std::runtime_error &fault) {
     throw UsageError(
         fmt::format("--out is '{}': {}; allowed: a file that can be written", out.string(), fault.what()));
@@ -491,6 +524,10 @@ void add_bed_command(CLI::App &app, Session &) {
          "--radius-max, --grading), and the smallest size of its balls [mm] (else so that the layer has its "
          "share of --balls, the same for each); --balls then counts for curves without CUT only")
       ->type_name("THICKNESS[:SIEVE[:CUT]]");
+  bed->add_option("--spot", arguments->spots,
+                  "a part of the lowest layer, along the way, with contacts of its own, such as a soft spot; may "
+                  "be given several times, in the order of the way; x is 0 in the middle [m]")
+      ->type_name("FROM:TO");
   bed->add_option(
          "--relative-density", arguments->relative_densities,
          "of a layer, from 0, the loosest packing of its mix, to 1, the densest; once, or once for each "

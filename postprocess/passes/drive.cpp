@@ -269,9 +269,9 @@ Drive read_drive(const fs::path &folder) {
   const auto dimension = parameters.find("dimension");
   drive.flat = dimension == parameters.end() ? in_a_plane(balls) : dimension->second != "3";
   if (!drive.flat) drive.thickness = number("thickness", {0.0, far, "m", false, true});
-  for (const DumpedBed &state : drive.states)
-    for (const Ball &ball : state.balls)
-      drive.layers = std::max(drive.layers, layer_of(ball.type));
+  constexpr double most = 1000.0;
+  drive.layers =
+      parameters.count("layers") == 0 ? 1 : static_cast<int>(number("layers", {1.0, most, "layers of soil"}));
   return drive;
 }
 

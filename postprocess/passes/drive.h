@@ -52,10 +52,16 @@ struct Drive {
   double timestep = 0.0;  ///< s
   double thickness = 1.0; ///< m, of the bed along the drum's axis; 1 in two dimensions
   bool flat = true;       ///< two dimensions
-  int layers = 1;         ///< of soil, by the types of its balls
+  int layers = 1;         ///< of soil
   std::vector<DrivenPass> passes;
   std::vector<DumpedBed> states;  ///< before the first pass and after each
   std::vector<std::string> notes; ///< what was left out and why, sentences
+
+  /// Layer of a soil ball, from 0. Types behind those of the layers are spots of the lowest.
+  std::size_t layer_at(const Ball &ball) const {
+    const int layer = layer_of(ball.type);
+    return layer > layers ? 0U : static_cast<std::size_t>(layer - 1);
+  }
 };
 
 /// The bed at one of the steps of DrivenPass::passing. Errors as read_drive().

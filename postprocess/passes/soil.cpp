@@ -91,7 +91,7 @@ LayerTops layer_tops(const Drive &drive, const DumpedBed &state, const VerticalL
   for (std::size_t b = 0; b < state.balls.size(); ++b) {
     if (!state.lies[b]) continue;
     const Ball &ball = state.balls[b];
-    std::vector<double> &heights = highest[static_cast<std::size_t>(layer_of(ball.type)) - 1];
+    std::vector<double> &heights = highest[drive.layer_at(ball)];
     for_lines_of(ball, lines, [&](std::size_t line, double along) {
       const double section = square(ball.radius) - square(along);
       for (std::size_t row = 0; row < rows; ++row) {
@@ -146,7 +146,7 @@ SoilLayers soil_on(const Drive &drive, const DumpedBed &state, const VerticalLin
     const Ball &ball = state.balls[b];
     const double content = content_between(ball, 0, part.from, part.to, flat);
     if (content == 0.0) continue;
-    contents[static_cast<std::size_t>(layer_of(ball.type)) - 1] += content;
+    contents[drive.layer_at(ball)] += content;
     const double r = ball.radius, share = content / (flat ? pi * r * r : 4.0 / 3.0 * pi * r * r * r);
     for (std::size_t layer = 0; layer < inside.size(); ++layer)
       soil.inner_content[layer] +=

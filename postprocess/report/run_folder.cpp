@@ -124,11 +124,17 @@ void compare_with_case(Run &run) {
 }
 
 /// The run of a bed with the contacts of its uppermost layer, which the drum is on: in a bed of layers k and
-/// D are lists, the lowest layer first.
+/// D are lists, the lowest layer first, and behind the layers the spots.
 Run of_top_layer(Run run) {
+  const std::string spots = run.text("spots", "none");
+  const auto behind = spots == "none" ? 0 : std::count(spots.begin(), spots.end(), ',') + 1;
   for (const char *name : {"k", "D"})
-    if (const auto found = run.parameters.find(name); found != run.parameters.end())
-      found->second.erase(0, found->second.rfind(',') + 1);
+    if (const auto found = run.parameters.find(name); found != run.parameters.end()) {
+      std::string &list = found->second;
+      for (auto spot = behind; spot > 0 && list.find(',') != std::string::npos; --spot)
+        list.erase(list.rfind(','));
+      list.erase(0, list.rfind(',') + 1);
+    }
   return run;
 }
 

@@ -206,10 +206,10 @@ TEST_P(Layers, HaveTheLawsOfThePageWithEachOtherAndWithTheDrum) {
   }
 }
 
-/// Balls of a data file of drumlin/write: type, diameter, height of the centre.
+/// Balls of a data file of drumlin/write: type, diameter, place and height of the centre.
 struct Settled {
   int type;
-  double size, y;
+  double size, x, y;
 };
 std::vector<Settled> settled_balls(const std::filesystem::path &file) {
   const std::string text = read_text(file);
@@ -221,8 +221,8 @@ std::vector<Settled> settled_balls(const std::filesystem::path &file) {
     std::istringstream row(line);
     Settled ball{};
     int id = 0;
-    double density = 0.0, x = 0.0;
-    if (row >> id >> ball.type >> ball.size >> density >> x >> ball.y) balls.push_back(ball);
+    double density = 0.0;
+    if (row >> id >> ball.type >> ball.size >> density >> ball.x >> ball.y) balls.push_back(ball);
   }
   return balls;
 }
@@ -244,13 +244,15 @@ protected:
   static constexpr double largest = 0.048; // m, diameter
   static constexpr std::array<double, 2> thickness = {0.2, 0.1};
 
-  static Outcome settle(const Scratch &folder, const Variables &more, int ranks = 1) {
+  static Outcome settle(const Scratch &folder, const Variables &more, int ranks = 1,
+                        const std::vector<std::string> &more_words = {}) {
     const auto &[engine, dimension] = GetParam();
     std::vector<std::string> words = {DRUMLIN_TOOLS, "bed",     "--width", "0.8",   "--layer",
                                       "0.2",         "--layer", "0.1",     "--out", "balls"};
     if (dimension == "3")
       words = {DRUMLIN_TOOLS, "bed", "--width", "0.3", "--depth", "0.15",
                "--layer",     "0.2", "--layer", "0.1", "--out",   "balls"};
+    words.insert(words.end(), more_words.begin(), more_words.end());
     well(run_program(words, {}, folder.path()));
     const bool flat = dimension == "2";
     const Variables variables = with(more, {{"case", flat ? "gravel" : "gravel3d"},
@@ -287,7 +289,7 @@ TEST_P(LayeredBed, SettlesLayerByLayer) {
   EXPECT_NEAR(tops[0], thickness[0], 0.5 * largest);
   EXPECT_NEAR(tops[1] - tops[0], thickness[1], 0.5 * largest);
   std::map<int, std::size_t> counts;
-  for (const auto &[type, size, y] : settled_balls(folder / "soil.data")) {
+  for (const auto &[type, size, x, y] : settled_balls(folder / "soil.data")) {
     ++counts[type];
     if (type == 1)
       EXPECT_LT(y, tops[0] + largest);
@@ -297,6 +299,40 @@ TEST_P(LayeredBed, SettlesLayerByLayer) {
   EXPECT_EQ(counts.size(), 2u);
   EXPECT_GT(counts[1], 40u);
   EXPECT_GT(counts[4], 20u);
+}
+
+// A soft spot is a part of the lowest layer: it falls and settles with it, where it was asked for, and has
+// the number of k that stands behind those of the layers.
+TEST_P(LayeredBed, HasASpotInItsLowestLayer) {
+  const auto &[engine, dimension] = GetParam();
+  if (dimension == "3") return;
+  const Scratch folder;
+  const std::vector<std::string> spot = {"--spot", "-0.1:0.15"};
+  EXPECT_TRUE(printed(
+      settle(folder, {}, 1, spot),
+      "variable pour_friction is '0.5,0.1'; allowed: one number, or 3 separated by commas, one for each "
+      "layer, the lowest first, and then one for each spot"));
+  well(settle(folder, {{"k", "1e8,1e9,1e7"}, {"friction", "0.5,0.8,0.4"}, {"pour_friction", "0.5,0.1,0.5"}},
+              1, spot));
+  const std::string text = read_text(folder / "soil.data");
+  for (const char *note : {"layers 2\n", "spots -0.1:0.15\n", "k 1e8,1e9,1e7\n"})
+    EXPECT_TRUE(contains(text, std::string("# drumlin note ") + note)) << note;
+  const std::vector<double> tops = noted_tops(folder / "soil.data");
+  ASSERT_EQ(tops.size(), 2u);
+  std::map<int, int> inside, outside;
+  for (const auto &[type, size, x, y] : settled_balls(folder / "soil.data")) {
+    const bool in_spot = x > -0.1 && x < 0.15;
+    ++(in_spot ? inside : outside)[type];
+    if (type == 5) {
+      EXPECT_LT(y, tops[0] + largest);
+      EXPECT_GT(x, -0.1 - 2.0 * largest);
+      EXPECT_LT(x, 0.15 + 2.0 * largest);
+    }
+  }
+  EXPECT_GT(inside[5], 20);
+  EXPECT_GT(outside[1], 40);
+  EXPECT_LT(outside[5], inside[5] / 4);
+  EXPECT_LT(inside[1], inside[5] / 4);
 }
 
 // Layers that were asked for by their density: in.settle pours them with the friction that the balls' file
@@ -323,7 +359,7 @@ TEST_P(LayeredBed, IsPouredForItsRelativeDensity) {
   // Both layers have the thickness that was asked for when their void ratios differ as their areas do.
   const std::vector<double> tops = noted_tops(folder / "soil.data");
   std::map<int, double> area;
-  for (const auto &[type, size, y] : settled_balls(folder / "soil.data"))
+  for (const auto &[type, size, x, y] : settled_balls(folder / "soil.data"))
     area[type] += 0.25 * pi * size * size;
   ASSERT_EQ(tops.size(), 2u);
   const double looser = (tops[0] / area[1]) / ((tops[1] - tops[0]) / area[4]);

@@ -97,7 +97,8 @@ struct Scales {
   double fastest = 0.0;   ///< end of the scale of colours, m/s
   double strongest = 0.0; ///< largest normal force of a contact, N
   bool flat = true;       ///< two dimensions
-  int layers = 1;         ///< of soil
+  int layers = 1;         ///< of soil, and behind them the spots of the lowest
+  int spots = 0;          ///< of these, spots
 
   /// Height z of the section through a bed in three dimensions, m.
   double middle() const { return 0.5 * (bounds.low[2] + bounds.high[2]); }
@@ -112,7 +113,11 @@ struct Scales {
 Scales scales_of(const std::vector<Views> &all) {
   Scales scales;
   std::vector<double> speeds;
-  for (const Views &views : all)
+  for (const Views &views : all) {
+    const std::string spots = views.result->run.text("spots", "none");
+    if (spots != "none")
+      scales.spots =
+          std::max(scales.spots, 1 + static_cast<int>(std::count(spots.begin(), spots.end(), ',')));
     for (const std::optional<Instant> &instant : views.views) {
       if (!instant) continue;
       scales.flat = scales.flat && in_a_plane(instant->balls);
@@ -126,6 +131,7 @@ Scales scales_of(const std::vector<Views> &all) {
       for (const WallContact &contact : instant->contacts.walls)
         scales.strongest = std::max(scales.strongest, force_parts(contact).normal);
     }
+  }
   if (!speeds.empty()) {
     const auto place =
         speeds.begin() + static_cast<std::ptrdiff_t>(bright_share * static_cast<double>(speeds.size() - 1));
@@ -203,7 +209,9 @@ Panel instant_panel(const std::string &figure, const std::string &label, const I
     const CurveStyle edge = edges[static_cast<std::size_t>(n - 1) % edges.size()];
     add(soil_curve(n, scales), "$2", by_contacts ? "3:4:6" : "3:4:5",
         scales.layers == 1 ? CurveStyle::discs : edge);
-    if (scales.layers > 1) panel.curves.back().title = fmt::format("layer {}", n);
+    const int spot = n - (scales.layers - scales.spots);
+    if (scales.layers > 1)
+      panel.curves.back().title = spot > 0 ? fmt::format("spot {}", spot) : fmt::format("layer {}", n);
   }
   for (int i = 0; i < force_classes && scales.strongest > 0.0; ++i) {
     const double high = scales.strongest / std::pow(2.0, force_classes - 1 - i);

@@ -476,6 +476,39 @@ TEST_F(ToolOptions, LayersArePouredForTheirRelativeDensity) {
             2);
 }
 
+TEST_F(ToolOptions, SpotsAreOfTheLowestLayer) {
+  well(run({"bed", "--width", "2", "--layer", "0.3", "--layer", "0.2", "--spot", "-0.5:-0.25", "--spot",
+            "0.1:0.6", "--out", "balls.data"}));
+  const std::string text = post::read_text(folder_ / "balls.data");
+  EXPECT_TRUE(contains(
+      text, {"# drumlin note layers 2\n", "# drumlin note spots -0.5:-0.25,0.1:0.6\n", "\n6 atom types\n"}));
+  std::istringstream rows(text.substr(text.find("Atoms\n") + 6));
+  int id = 0, type = 0, counted = 0;
+  for (double size = 0.0, density = 0.0, x = 0.0, y = 0.0, z = 0.0;
+       rows >> id >> type >> size >> density >> x >> y >> z;) {
+    const int spot = x >= -0.5 && x <= -0.25 ? 5 : x >= 0.1 && x <= 0.6 ? 6 : 1;
+    counted += type == 4 ? 0 : 1;
+    if (type != 4) EXPECT_EQ(type, spot) << x;
+  }
+  EXPECT_GT(counted, 100);
+  for (const auto &[words, message] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"--spot", "0:0.5"}, "--spot is '0:0.5'; allowed: only with --layer"},
+           {{"--layer", "0.3", "--spot", "0.5"}, "--spot is '0.5'; allowed: FROM:TO, "},
+           {{"--layer", "0.3", "--spot", "0:x"}, "--spot is '0:x'; allowed: FROM:TO, "},
+           {{"--layer", "0.3", "--spot", "0.5:0"}, "--spot is '0.5:0'; allowed: FROM:TO, "},
+           {{"--layer", "0.3", "--spot", "0:0.01"}, "at least 0.048 m long"},
+           {{"--layer", "0.3", "--spot", "0:9"}, "--spot is '0:9'; allowed: FROM:TO, "},
+           {{"--layer", "0.3", "--spot", "0:0.3", "--spot", "0.2:0.5"}, "--spot is '0.2:0.5'; allowed: "}}) {
+    std::vector<std::string> all = {"bed", "--width", "2", "--out", "none.data"};
+    all.insert(all.end(), words.begin(), words.end());
+    const post::Outcome outcome = run(all);
+    EXPECT_EQ(outcome.status, 2);
+    expect_one_error(outcome.output, "drumlin bed: ");
+    EXPECT_TRUE(printed(outcome, message));
+    EXPECT_FALSE(fs::exists(folder_ / "none.data"));
+  }
+}
+
 // The balls of a layer have its type, lie above those of the layer below, and fill the thickness that was
 // asked for when they take 82.5 % of the area. Half of the mass of this curve is finer than 20 mm.
 TEST_F(ToolOptions, LayersMakeABedWithATypeForEach) {

@@ -150,6 +150,7 @@ protected:
                                    {"m2", number_text(m2)},
                                    {"m3", number_text(m3)},
                                    {"timestep", number_text(1.0 / (frequency * steps_per_cycle))},
+                                   {"layers", "2"},
                                    {"layer_tops", "0.4,0.6"},
                                    {"e_loosest", "0.9,0.9"},
                                    {"e_densest", "0.2,0.2"},
@@ -305,7 +306,7 @@ TEST_F(Passes, MeasuresInThreeDimensions) {
       for (int j = 0; j < 16; ++j) {
         post::Ball ball;
         ball.id = static_cast<long>(bed.balls.size()) + 1;
-        ball.type = j < 8 ? 1 : 4;
+        ball.type = j >= 8 ? 4 : i < 0 ? 1 : 5; // 5: a spot of the lowest layer
         ball.radius = r;
         ball.position = {(i + 0.5) * narrow, r + j * high, (k + 0.5) * narrow - 0.5 * depth};
         bed.balls.push_back(ball);
@@ -318,6 +319,8 @@ TEST_F(Passes, MeasuresInThreeDimensions) {
   const double density = 4.0 / 3.0 * M_PI * r * r * r / (narrow * narrow * high); // overlaps count twice
   EXPECT_NEAR(soil.thickness[1], 8 * high, 1e-12);
   EXPECT_NEAR(soil.solid_fraction[1], density, 1e-11);
+  EXPECT_EQ(soil.solid_fraction.size(), 2U);
+  EXPECT_NEAR(soil.solid_fraction[0], density, 0.1 * density);        // a half if the spot were not counted
   EXPECT_NEAR(soil.inner_solid_fraction(0), density, 0.03 * density); // planes cut the rows anywhere
   // The mean height of a sphere's top over the square that is its own, by the mean over many points.
   double arch = 0.0;
