@@ -237,22 +237,24 @@ std::string settings(const Task &task) {
 }
 
 /// A row of regimes.csv; the values of the axes name it.
-struct MapPoint {
+template <class Point>
+struct MapRow {
   double x = 0.0, y = 0.0;
-  RegimePoint point;
+  Point point;
 };
 
-CsvSchema<MapPoint> map_columns(const MapGrid &grid) {
+using ChainRow = MapRow<RegimePoint>;
+CsvSchema<ChainRow> map_columns(const MapGrid &grid) {
   const auto number = [](const char *name, auto part) {
-    return csv_column_of<MapPoint, double>(name, part, all_digits);
+    return csv_column_of<ChainRow, double>(name, part, all_digits);
   };
-  return CsvSchema<MapPoint>(
-      {csv_column(grid.x.label(), &MapPoint::x),
-       csv_column(grid.y.label(), &MapPoint::y),
+  return CsvSchema<ChainRow>(
+      {csv_column(grid.x.label(), &ChainRow::x),
+       csv_column(grid.y.label(), &ChainRow::y),
        {"regime",
-        [](const MapPoint &row) { return regime_names[static_cast<std::size_t>(row.point.regime)]; },
-        [](MapPoint &row, const std::string &cell) { row.point.regime = regime_from_name(cell); }},
-       csv_column("period [cycles]", &MapPoint::point, &RegimePoint::period),
+        [](const ChainRow &row) { return regime_names[static_cast<std::size_t>(row.point.regime)]; },
+        [](ChainRow &row, const std::string &cell) { row.point.regime = regime_from_name(cell); }},
+       csv_column("period [cycles]", &ChainRow::point, &RegimePoint::period),
        number(
            "CMV [-]", [](auto &row) -> auto & { return row.point.meter.cmv; }),
        number(
@@ -261,7 +263,7 @@ CsvSchema<MapPoint> map_columns(const MapGrid &grid) {
            "peak_force [N]", [](auto &row) -> auto & { return row.point.meter.peak_force; }),
        number(
            "contact_share [-]", [](auto &row) -> auto & { return row.point.meter.contact_share; }),
-       csv_column("multiplier [-]", &MapPoint::point, &RegimePoint::multiplier),
+       csv_column("multiplier [-]", &ChainRow::point, &RegimePoint::multiplier),
        number(
            "exponent [1/cycle]", [](auto &row) -> auto & { return row.point.exponent.mean; }),
        number(
@@ -272,14 +274,16 @@ CsvSchema<MapPoint> map_columns(const MapGrid &grid) {
 }
 
 /// All points of the map in its order; those that an earlier call has written are not computed again.
-std::vector<RegimePoint> map_points(const Task &task) {
+/// \param at_once so many are written after each other
+template <class Point, class Judge>
+std::vector<Point> map_points(const Task &task, const CsvSchema<MapRow<Point>> &columns, std::size_t at_once,
+                              const Judge &judge) {
   const MapGrid &grid = task.grid;
-  const CsvSchema<MapPoint> columns = map_columns(grid);
   ResumedTable table(task.out / points_name, columns);
-  std::map<std::pair<double, double>, RegimePoint> earlier;
-  for (const MapPoint &row : read_points(table.file(), columns))
+  std::map<std::pair<double, double>, Point> earlier;
+  for (const MapRow<Point> &row : read_points(table.file(), columns))
     earlier[{row.x, row.y}] = row.point;
-  std::vector<RegimePoint> points(grid.size());
+  std::vector<Point> points(grid.size());
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (table.has(columns.key({grid.x_of(i), grid.y_of(i), {}})))
@@ -287,21 +291,28 @@ std::vector<RegimePoint> map_points(const Task &task) {
     else
       missing.push_back(i);
   table.finish(); // before hours of work, for rows that belong to no point
-  if (missing.size() < points.size())
-    fmt::print("{} of {} points are there already\n", points.size() - missing.size(), points.size());
+  const std::size_t there = points.size() - missing.size();
+  if (there > 0) fmt::print("{} of {} points are there already\n", there, points.size());
   TimedProgress progress;
-  judge_points(grid, missing, task.threads, [&](std::size_t first, const std::vector<RegimePoint> &more) {
-    std::vector<ResumedTable::Row> rows;
-    for (std::size_t i = 0; i < more.size(); ++i) {
-      const std::size_t number = missing[first + i];
-      points[number] = more[i];
-      rows.push_back(columns.cells({grid.x_of(number), grid.y_of(number), more[i]}));
-    }
-    table.add(rows);
-    progress.tell("{} of {} points", points.size() - missing.size() + first + more.size(), points.size());
-  });
+  judge_points<Point>(missing, task.threads, at_once, judge,
+                      [&](std::size_t first, const std::vector<Point> &more) {
+                        std::vector<ResumedTable::Row> rows;
+                        for (std::size_t i = 0; i < more.size(); ++i) {
+                          const std::size_t number = missing[first + i];
+                          points[number] = more[i];
+                          rows.push_back(columns.cells({grid.x_of(number), grid.y_of(number), more[i]}));
+                        }
+                        table.add(rows);
+                        progress.tell("{} of {} points", there + first + more.size(), points.size());
+                      });
   table.finish();
   return points;
+}
+
+std::vector<RegimePoint> chain_points(const Task &task) {
+  constexpr std::size_t at_once = 200;
+  return map_points(task, map_columns(task.grid), at_once,
+                    [&task](std::size_t point) { return task.grid.judged(point); });
 }
 
 void draw(const fs::path &out, const MapFigures &figures) {
@@ -337,17 +348,21 @@ void write_page(const Task &task, const std::vector<Figure> &figures, const std:
                           contents, body)}});
 }
 
+std::string boundaries_csv(const MapGrid &grid, const std::vector<BoundaryPoint> &boundaries) {
+  std::string text = fmt::format("kind,{},{}\n", grid.x.label(), grid.y.label());
+  for (const BoundaryPoint &point : boundaries)
+    text += fmt::format("{},{},{}\n", point.kind, number_text(point.x), number_text(point.y));
+  return text;
+}
+
 void run_map(const Task &task) {
   const MapGrid &grid = task.grid;
-  const std::vector<RegimePoint> points = map_points(task);
+  const std::vector<RegimePoint> points = chain_points(task);
   TimedProgress progress;
   const std::vector<BoundaryPoint> boundaries =
       find_boundaries(grid, points, task.threads,
                       [&](double share) { progress.tell("boundaries: {:.0f} %", 100.0 * share); });
-  std::string text = fmt::format("kind,{},{}\n", grid.x.label(), grid.y.label());
-  for (const BoundaryPoint &point : boundaries)
-    text += fmt::format("{},{},{}\n", point.kind, number_text(point.x), number_text(point.y));
-  write_files({{task.out / boundaries_name, text}});
+  write_files({{task.out / boundaries_name, boundaries_csv(grid, boundaries)}});
   const MapFigures figures = map_figures(grid, points, boundaries);
   draw(task.out, figures);
   fmt::print("{}: {} points, {} points of boundaries\n", task.out.string(), points.size(), boundaries.size());
@@ -400,16 +415,32 @@ void run_along(const Task &task) {
   fmt::print("{}: {} points\n", (task.out / page_name).string(), points.size());
 }
 
-std::string ends_header() {
-  return "regime,period [cycles],multiplier [-],exponent [1/cycle],tilt [rad],contact_left [-],contact_right "
-         "[-]\n";
-}
-
-std::string ends_cells(const EndsPoint &point) {
-  return fmt::format("{},{},{},{},{},{},{}\n", ends_mode_names[static_cast<std::size_t>(point.mode)],
-                     point.period, number_text(point.multiplier), number_text(point.exponent.mean),
-                     number_text(point.tilt), number_text(point.contact_share[0]),
-                     number_text(point.contact_share[1]));
+/// The columns of what a drum with two ends settles to, behind those that name a row.
+template <class Row>
+CsvSchema<Row> with_ends_columns(std::vector<CsvColumn<Row>> columns) {
+  const std::size_t keys = columns.size();
+  columns.push_back(
+      {"regime", [](const Row &row) { return ends_mode_names[static_cast<std::size_t>(row.point.mode)]; },
+       [](Row &row, const std::string &cell) {
+         const auto *const found = std::find(ends_mode_names.begin(), ends_mode_names.end(), cell);
+         if (found == ends_mode_names.end())
+           throw std::invalid_argument(fmt::format("{}", fmt::join(ends_mode_names, ", ")));
+         row.point.mode = static_cast<EndsMode>(found - ends_mode_names.begin());
+       }});
+  columns.push_back(csv_column("period [cycles]", &Row::point, &EndsPoint::period));
+  columns.push_back(csv_column("multiplier [-]", &Row::point, &EndsPoint::multiplier));
+  const auto number = [&columns](const char *name, auto part) {
+    columns.push_back(csv_column_of<Row, double>(name, part, all_digits));
+  };
+  number(
+      "exponent [1/cycle]", [](auto &row) -> auto & { return row.point.exponent.mean; });
+  number(
+      "tilt [rad]", [](auto &row) -> auto & { return row.point.tilt; });
+  number(
+      "contact_left [-]", [](auto &row) -> auto & { return row.point.contact_share[0]; });
+  number(
+      "contact_right [-]", [](auto &row) -> auto & { return row.point.contact_share[1]; });
+  return CsvSchema<Row>(std::move(columns), keys);
 }
 
 /// What the drum with two ends does, in words.
@@ -427,19 +458,17 @@ std::string ends_counts(const std::vector<EndsPoint> &points) {
 
 void run_ends_map(const Task &task) {
   const MapGrid &grid = task.grid;
+  using Row = MapRow<EndsPoint>;
+  constexpr std::size_t at_once = 8; // a point can take a second
+  const std::vector<EndsPoint> points = map_points(
+      task,
+      with_ends_columns<Row>({csv_column(grid.x.label(), &Row::x), csv_column(grid.y.label(), &Row::y)}),
+      at_once, [&](std::size_t point) { return judged(*task.ends, grid, point); });
   TimedProgress progress;
-  const std::vector<EndsPoint> points = judge_map(*task.ends, grid, task.threads, [&](std::size_t done) {
-    progress.tell("{} of {} points", done, grid.size());
-  });
-  const std::vector<BoundaryPoint> boundaries = ends_boundaries(*task.ends, grid);
-  std::string rows = fmt::format("{},{},{}", grid.x.label(), grid.y.label(), ends_header());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    rows +=
-        fmt::format("{},{},{}", number_text(grid.x_of(i)), number_text(grid.y_of(i)), ends_cells(points[i]));
-  std::string text = fmt::format("kind,{},{}\n", grid.x.label(), grid.y.label());
-  for (const BoundaryPoint &point : boundaries)
-    text += fmt::format("{},{},{}\n", point.kind, number_text(point.x), number_text(point.y));
-  write_files({{task.out / points_name, rows}, {task.out / boundaries_name, text}});
+  const std::vector<BoundaryPoint> boundaries =
+      ends_boundaries(*task.ends, grid, points, task.threads,
+                      [&](double share) { progress.tell("boundaries: {:.0f} %", 100.0 * share); });
+  write_files({{task.out / boundaries_name, boundaries_csv(grid, boundaries)}});
   const MapFigures figures = ends_figures(grid, points, boundaries);
   draw(task.out, figures);
   write_page(task, figures.figures, ends_counts(points));
@@ -452,17 +481,16 @@ void run_ends_sweep(const Task &task) {
   const std::vector<EndsSample> samples =
       sweep_ends(*task.ends, *task.sweep, task.grid.cycles,
                  [&](double share) { progress.tell("{:.0f} %", 100.0 * share); });
-  std::string rows = fmt::format("direction,{},{}", task.sweep->label(), ends_header());
+  const auto columns = with_ends_columns<EndsSample>(
+      {{"direction", [](const EndsSample &row) { return row.up ? "up" : "down"; }, {}},
+       csv_column(task.sweep->label(), &EndsSample::value)});
   std::vector<EndsPoint> points;
-  for (const EndsSample &sample : samples) {
-    rows += fmt::format("{},{},{}", sample.up ? "up" : "down", number_text(sample.value),
-                        ends_cells(sample.point));
+  for (const EndsSample &sample : samples)
     points.push_back(sample.point);
-  }
   int apart = 0;
   for (std::size_t i = 0; i < samples.size() / 2; ++i)
     if (samples[i].point.mode != samples[samples.size() - 1 - i].point.mode) ++apart;
-  write_files({{task.out / "sweep.csv", rows}});
+  write_files({{task.out / "sweep.csv", columns.text(samples)}});
   draw(task.out, ends_sweep_figures(task.grid.chain, *task.sweep, samples));
   fmt::print("{}: {} values, up and down, on {} contacts: {}; another motion downwards at {}\n",
              task.out.string(), task.sweep->count, task.ends->contacts, ends_counts(points), apart);

@@ -1,14 +1,10 @@
 #include "map/ends_map.h"
 
-#include "support/parallel.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 
 namespace drumlin::post {
 
@@ -38,39 +34,30 @@ TwoEnds machine_at(const EndsFamily &family, const MapGrid &grid, double x, doub
 
 } // namespace
 
-std::vector<EndsPoint> judge_map(const EndsFamily &family, const MapGrid &grid, int threads,
-                                 const std::function<void(std::size_t)> &progress) {
-  std::vector<EndsPoint> points(grid.size());
-  std::size_t done = 0;
-  std::mutex guard;
-  in_parallel(points.size(), threads, [&](std::size_t i) {
-    points[i] = judge_ends(machine_at(family, grid, grid.x_of(i), grid.y_of(i)), grid.cycles);
-    const std::lock_guard<std::mutex> lock(guard);
-    progress(++done);
-  });
-  return points;
+EndsPoint judged(const EndsFamily &family, const MapGrid &grid, std::size_t point) {
+  return judge_ends(machine_at(family, grid, grid.x_of(point), grid.y_of(point)), grid.cycles);
 }
 
-std::vector<BoundaryPoint> ends_boundaries(const EndsFamily &family, const MapGrid &grid) {
-  std::vector<BoundaryPoint> found;
-  const auto held = [&](double x, double y) { return ends_margin(machine_at(family, grid, x, y)) > 0.0; };
-  const auto between = [&](double x0, double y0, double x1, double y1) {
-    const bool first = held(x0, y0);
-    if (first == held(x1, y1)) return;
-    double low = 0.0, high = 1.0;
-    for (int i = 0; i < 40; ++i) {
-      const double middle = 0.5 * (low + high);
-      (held(x0 + middle * (x1 - x0), y0 + middle * (y1 - y0)) == first ? low : high) = middle;
-    }
-    found.push_back({"loss of contact", x0 + low * (x1 - x0), y0 + low * (y1 - y0)});
-  };
-  const auto width = static_cast<std::size_t>(grid.x.count);
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    if (i % width + 1 < width) between(grid.x_of(i), grid.y_of(i), grid.x_of(i + 1), grid.y_of(i + 1));
-    if (i + width < grid.size())
-      between(grid.x_of(i), grid.y_of(i), grid.x_of(i + width), grid.y_of(i + width));
-  }
-  return found;
+std::vector<BoundaryPoint> ends_boundaries(const EndsFamily &family, const MapGrid &grid,
+                                           const std::vector<EndsPoint> &points, int threads,
+                                           const std::function<void(double)> &progress) {
+  return boundaries_on_edges(
+      grid, threads, progress,
+      [&](double x, double y) { return ends_margin(machine_at(family, grid, x, y)); },
+      [&](std::size_t point) { return points[point].period; },
+      [&](const GridEdge &edge, double from, double to, int period) -> std::optional<OrbitChange> {
+        const auto solver_at = [&](double value) {
+          const auto [x, y] = edge.at(value);
+          return TwoEndsSolver(machine_at(family, grid, x, y));
+        };
+        const TwoEndsSolver solver = solver_at(from);
+        TwoEndsMotion motion = solver.start();
+        for (int cycle = 0; cycle < grid.cycles; ++cycle)
+          solver.finish_cycle(motion);
+        const auto orbit = newton_orbit(EndsCycles{solver}, motion.state, period);
+        if (!orbit || !orbit->stable()) return std::nullopt;
+        return located_doubling<EndsCycles>(solver_at, from, to, *orbit);
+      });
 }
 
 std::vector<EndsSample> sweep_ends(const EndsFamily &family, const MapAxis &axis, int cycles,
@@ -95,22 +82,18 @@ MapFigures ends_figures(const MapGrid &grid, const std::vector<EndsPoint> &point
                         const std::vector<BoundaryPoint> &boundaries) {
   MapFigures result;
   std::array<bool, ends_mode_count> seen{};
-  std::string cells = "x,y,left,right,low,high,mode,tilt_mrad,contact_left,contact_right\n", marks = "x,y\n";
+  std::string cells = "x,y,left,right,low,high,mode,tilt_mrad,contact_left,contact_right\n";
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto mode = static_cast<std::size_t>(points[i].mode);
     seen[mode] = true;
     cells += fmt::format("{},{},{:.6g},{:.6g},{:.6g}\n", point_cells(grid, i), mode, 1e3 * points[i].tilt,
                          points[i].contact_share[0], points[i].contact_share[1]);
   }
-  for (const BoundaryPoint &point : boundaries)
-    marks += fmt::format("{:.12g},{:.12g}\n", shown_axis(grid.x).scale * point.x,
-                         shown_axis(grid.y).scale * point.y);
-  result.data = {{"plot_ends.csv", cells}, {"plot_boundaries.csv", marks}};
+  const BoundaryMarks marks = boundary_marks(grid, boundaries);
+  result.data = {{"plot_ends.csv", cells}, {"plot_boundaries.csv", marks.rows}};
   const std::string given = conditions(grid.chain, {grid.x.parameter(), grid.y.parameter()});
   const auto add = [&](const std::string &name, const std::string &title, Panel panel) {
-    if (!boundaries.empty())
-      panel.curves.push_back(
-          {"plot_boundaries.csv", "1", "2", boundary_title("loss of contact"), CurveStyle::mark_1});
+    panel.curves.insert(panel.curves.end(), marks.curves.begin(), marks.curves.end());
     Figure figure;
     figure.name = name;
     figure.title = title;

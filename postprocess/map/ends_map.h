@@ -22,13 +22,14 @@ struct EndsFamily {
   TwoEnds at(const std::vector<std::pair<std::string, double>> &values) const;
 };
 
-/// The points of a map in its order, by several threads. \param progress gets the number of those that are
-/// done
-std::vector<EndsPoint> judge_map(const EndsFamily &family, const MapGrid &grid, int threads,
-                                 const std::function<void(std::size_t)> &progress);
+/// What the drum settles to at a point of a map.
+EndsPoint judged(const EndsFamily &family, const MapGrid &grid, std::size_t point);
 
-/// Where unbroken contact ends, between neighbours of the grid.
-std::vector<BoundaryPoint> ends_boundaries(const EndsFamily &family, const MapGrid &grid);
+/// Where unbroken contact ends and where orbits double (double jump or rocking begins), between neighbours of
+/// the grid. \param points judged
+std::vector<BoundaryPoint> ends_boundaries(const EndsFamily &family, const MapGrid &grid,
+                                           const std::vector<EndsPoint> &points, int threads,
+                                           const std::function<void(double)> &progress = {});
 
 /// A motion along an axis, with the mode that it has there.
 struct EndsSample {

@@ -91,18 +91,14 @@ std::string point_cells(const MapGrid &grid, std::size_t point) {
 namespace {
 
 /// The tables of a map: plot_areas.csv, where neighbours of one regime in a row are one rectangle,
-/// plot_cells.csv with the layers of each point, plot_boundaries.csv; and which regimes and kinds of boundary
-/// they contain.
+/// plot_cells.csv with the layers of each point; and which regimes they contain.
 struct MapTables {
   std::array<bool, regime_count> seen{};
-  std::array<bool, kinds.size()> has{};
   std::string areas = "regime,x,y,left,right,low,high\n";
   std::string cells = "x,y,left,right,low,high,cmv,rmv,peak_force_kN,contact_share\n";
-  std::string marks = "kind,x,y\n";
 };
 
-MapTables tables_of(const MapGrid &grid, const std::vector<RegimePoint> &points,
-                    const std::vector<BoundaryPoint> &boundaries) {
+MapTables tables_of(const MapGrid &grid, const std::vector<RegimePoint> &points) {
   MapTables tables;
   const auto at = [&](int x, int y) -> const RegimePoint & {
     return points[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.x.count) +
@@ -125,13 +121,6 @@ MapTables tables_of(const MapGrid &grid, const std::vector<RegimePoint> &points,
       tables.areas += fmt::format("{},{}\n", regime, box_cells(grid, box_of(grid, x, last, y)));
       x = last + 1;
     }
-  for (const BoundaryPoint &point : boundaries)
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-      if (point.kind == kinds[i].name) {
-        tables.has[i] = true;
-        tables.marks += fmt::format("{},{:.12g},{:.12g}\n", i, shown_axis(grid.x).scale * point.x,
-                                    shown_axis(grid.y).scale * point.y);
-      }
   return tables;
 }
 
@@ -141,6 +130,22 @@ std::string boundary_title(const std::string &kind) {
   for (const Kind &one : kinds)
     if (kind == one.name) return one.title;
   return kind;
+}
+
+BoundaryMarks boundary_marks(const MapGrid &grid, const std::vector<BoundaryPoint> &boundaries) {
+  BoundaryMarks marks{"kind,x,y\n", {}};
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    std::string rows;
+    for (const BoundaryPoint &point : boundaries)
+      if (point.kind == kinds[i].name)
+        rows += fmt::format("{},{:.12g},{:.12g}\n", i, shown_axis(grid.x).scale * point.x,
+                            shown_axis(grid.y).scale * point.y);
+    if (rows.empty()) continue;
+    marks.rows += rows;
+    marks.curves.push_back(
+        {"plot_boundaries.csv", fmt::format("($1=={}?$2:NaN)", i), "3", kinds[i].title, kinds[i].style});
+  }
+  return marks;
 }
 
 std::string conditions(const MapChain &chain, const std::vector<std::string> &varied) {
@@ -160,17 +165,15 @@ std::string conditions(const MapChain &chain, const std::vector<std::string> &va
 
 MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &points,
                        const std::vector<BoundaryPoint> &boundaries) {
-  const MapTables tables = tables_of(grid, points, boundaries);
+  const MapTables tables = tables_of(grid, points);
+  const BoundaryMarks marks = boundary_marks(grid, boundaries);
   MapFigures result;
   result.data = {{"plot_areas.csv", tables.areas},
                  {"plot_cells.csv", tables.cells},
-                 {"plot_boundaries.csv", tables.marks}};
+                 {"plot_boundaries.csv", marks.rows}};
 
   const auto add_marks = [&](Panel &panel) {
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-      if (tables.has[i])
-        panel.curves.push_back(
-            {"plot_boundaries.csv", fmt::format("($1=={}?$2:NaN)", i), "3", kinds[i].title, kinds[i].style});
+    panel.curves.insert(panel.curves.end(), marks.curves.begin(), marks.curves.end());
   };
   const std::string given = conditions(grid.chain, {grid.x.parameter(), grid.y.parameter()});
   Figure regimes;

@@ -31,6 +31,13 @@ std::string point_cells(const MapGrid &grid, std::size_t point);
 /// Kinds of boundaries as pictures name them.
 std::string boundary_title(const std::string &kind);
 
+/// Boundaries as marks in panels of a map, a curve for each kind, and the file that they are drawn from.
+struct BoundaryMarks {
+  std::string rows; ///< of plot_boundaries.csv: kind, x, y
+  std::vector<Curve> curves;
+};
+BoundaryMarks boundary_marks(const MapGrid &grid, const std::vector<BoundaryPoint> &boundaries);
+
 /// What the chain has at all points of a map, in words. \param varied numbers of the axes
 std::string conditions(const MapChain &chain, const std::vector<std::string> &varied);
 

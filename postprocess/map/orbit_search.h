@@ -239,4 +239,107 @@ Settled<System> settle(const System &system, typename System::Motion motion, int
   return settled;
 }
 
+/// An orbit at a value of the parameter that is varied.
+template <class System>
+struct BranchPointOf {
+  double value = 0.0;
+  OrbitOf<System> orbit;
+};
+
+/// Follows the orbit `start`, stable or not, while the varied parameter goes from one value to another in
+/// `steps` steps, or more where Newton's method needs shorter ones. Ends early where no orbit is found even
+/// with a step of 1e-7 of the range, for instance where a stable and an unstable orbit meet and vanish
+/// (fold). \param solver_at the solver of the System at a value
+template <class System, class SolverAt>
+std::vector<BranchPointOf<System>> continued_orbit(const SolverAt &solver_at, double from, double to,
+                                                   int steps, const OrbitOf<System> &start) {
+  std::vector<BranchPointOf<System>> branch;
+  const auto first = solver_at(from);
+  std::optional<OrbitOf<System>> orbit = newton_orbit(System{first}, start.state, start.period);
+  if (!orbit) return branch;
+  branch.push_back({from, *orbit});
+  const double whole = (to - from) / steps;
+  double step = whole;
+  while (branch.back().value != to) {
+    const BranchPointOf<System> &last = branch.back();
+    double value = last.value + step;
+    if (std::fabs(to - value) < 1e-9 * std::fabs(whole) || (value > to) == (to > from)) value = to;
+    typename System::State guess = last.orbit.state;
+    if (branch.size() > 1) { // along the line through the last two
+      const BranchPointOf<System> &before = branch[branch.size() - 2];
+      guess += (guess - before.orbit.state) * ((value - last.value) / (last.value - before.value));
+    }
+    const auto solver = solver_at(value);
+    const System system{solver};
+    orbit = newton_orbit(system, guess, start.period);
+    if (!orbit) orbit = newton_orbit(system, last.orbit.state, start.period);
+    // If a step ends far from its start, Newton's method has found another orbit.
+    constexpr double far = 0.5;
+    if (orbit && scaled_distance(orbit->state, last.orbit.state, system.scale()) < far) {
+      branch.push_back({value, *orbit});
+      step = std::fabs(2.0 * step) > std::fabs(whole) ? whole : 2.0 * step;
+      continue;
+    }
+    step *= 0.5;
+    if (std::fabs(step) < 1e-7 * std::fabs(to - from)) break;
+  }
+  return branch;
+}
+
+/// Narrows from and to, at which `same` is true and false, to neighbours within 1e-11.
+template <class Same>
+double bisected(double from, double to, const Same &same) {
+  constexpr double enough = 1e-12;
+  while (std::fabs(to - from) > enough * std::max(std::fabs(from), std::fabs(to))) {
+    const double middle = 0.5 * (from + to);
+    if (middle == from || middle == to) break;
+    (same(middle) ? from : to) = middle;
+  }
+  return 0.5 * (from + to);
+}
+
+/// Value of the varied parameter at which an orbit changes its kind.
+struct OrbitChange {
+  double value = 0.0; ///< value of the varied parameter, relative error 1e-11
+  bool smooth = true; ///< doubling: a multiplier passes -1; false: it jumps over -1, since the orbit meets a
+                      ///< boundary of the contact
+};
+
+/// Where a multiplier of the orbit that begins as `start` at `from` passes -1. No value if the sign of det(J
+/// + I) is the same at both ends or the orbit cannot be followed.
+template <class System, class SolverAt>
+std::optional<OrbitChange> located_doubling(const SolverAt &solver_at, double from, double to,
+                                            const OrbitOf<System> &start) {
+  const auto determinant = [](const OrbitOf<System> &orbit) {
+    return (orbit.passage.jacobian + System::Matrix::Identity()).determinant();
+  };
+  const std::vector<BranchPointOf<System>> branch = continued_orbit<System>(solver_at, from, to, 4, start);
+  if (branch.size() < 2) return std::nullopt;
+  const bool positive = determinant(branch.front().orbit) > 0.0;
+  std::size_t i = 1;
+  while (i < branch.size() && (determinant(branch[i].orbit) > 0.0) == positive)
+    ++i;
+  if (i == branch.size()) return std::nullopt;
+  OrbitOf<System> near = branch[i - 1].orbit;
+  bool lost = false;
+  double before = determinant(near);
+  double after = determinant(branch[i].orbit);
+  const double value = bisected(branch[i - 1].value, branch[i].value, [&](double middle) {
+    const auto solver = solver_at(middle);
+    const std::optional<OrbitOf<System>> orbit = newton_orbit(System{solver}, near.state, start.period);
+    if (!orbit) {
+      lost = true;
+      return true;
+    }
+    const double now = determinant(*orbit);
+    const bool same = (now > 0.0) == positive;
+    if (same) near = *orbit;
+    (same ? before : after) = now;
+    return same;
+  });
+  if (lost) return std::nullopt;
+  constexpr double jump = 1e-6;
+  return OrbitChange{value, std::fabs(before - after) < jump};
+}
+
 } // namespace drumlin::post

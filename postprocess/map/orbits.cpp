@@ -34,10 +34,6 @@ private:
   bool with_jacobian_;
 };
 
-double scaled_norm(const ChainState &difference, const ChainState &scale) {
-  return difference.cwiseQuotient(scale).norm();
-}
-
 } // namespace
 
 Passage pass(const ChainSolver &solver, const ChainState &state, int cycles, bool with_jacobian) {
@@ -136,52 +132,11 @@ Exponent largest_exponent(const ChainSolver &solver, ChainState &state, int lead
 std::vector<BranchPoint> continue_orbit(const ChainFamily &family, double from, double to, int steps,
                                         const PeriodicOrbit &start) {
   std::vector<BranchPoint> branch;
-  std::optional<PeriodicOrbit> orbit = find_orbit(ChainSolver(family(from)), start.state, start.period);
-  if (!orbit) return branch;
-  branch.push_back({from, *orbit});
-  const double whole = (to - from) / steps;
-  double step = whole;
-  while (branch.back().value != to) {
-    const BranchPoint &last = branch.back();
-    double value = last.value + step;
-    if (std::fabs(to - value) < 1e-9 * std::fabs(whole) || (value > to) == (to > from)) value = to;
-    ChainState guess = last.orbit.state;
-    if (branch.size() > 1) { // along the line through the last two
-      const BranchPoint &before = branch[branch.size() - 2];
-      guess += (guess - before.orbit.state) * ((value - last.value) / (last.value - before.value));
-    }
-    const ChainParameters parameters = family(value);
-    const ChainSolver solver(parameters);
-    orbit = find_orbit(solver, guess, start.period);
-    if (!orbit) orbit = find_orbit(solver, last.orbit.state, start.period);
-    // If a step ends far from its start, Newton's method has found another orbit.
-    constexpr double far = 0.5;
-    if (orbit && scaled_norm(orbit->state - last.orbit.state, state_scale(parameters)) < far) {
-      branch.push_back({value, *orbit});
-      step = std::fabs(2.0 * step) > std::fabs(whole) ? whole : 2.0 * step;
-      continue;
-    }
-    step *= 0.5;
-    if (std::fabs(step) < 1e-7 * std::fabs(to - from)) break;
-  }
+  for (const auto &[value, orbit] : continued_orbit<ChainCycles>(
+           [&family](double at) { return ChainSolver(family(at)); }, from, to, steps, start))
+    branch.push_back({value, {orbit}});
   return branch;
 }
-
-namespace {
-
-// Narrows from and to, at which `same` is true and false, to neighbours within 1e-11.
-template <class Same>
-double bisected(double from, double to, const Same &same) {
-  constexpr double enough = 1e-12;
-  while (std::fabs(to - from) > enough * std::max(std::fabs(from), std::fabs(to))) {
-    const double middle = 0.5 * (from + to);
-    if (middle == from || middle == to) break;
-    (same(middle) ? from : to) = middle;
-  }
-  return 0.5 * (from + to);
-}
-
-} // namespace
 
 std::optional<OrbitChange> locate_contact_loss(const ChainFamily &family, double from, double to) {
   const auto lasts = [&family](double value) {
@@ -195,36 +150,8 @@ std::optional<OrbitChange> locate_contact_loss(const ChainFamily &family, double
 
 std::optional<OrbitChange> locate_doubling(const ChainFamily &family, double from, double to,
                                            const PeriodicOrbit &start) {
-  const auto determinant = [](const PeriodicOrbit &orbit) {
-    return (orbit.passage.jacobian + Eigen::Matrix4d::Identity()).determinant();
-  };
-  const std::vector<BranchPoint> branch = continue_orbit(family, from, to, 4, start);
-  if (branch.size() < 2) return std::nullopt;
-  const bool positive = determinant(branch.front().orbit) > 0.0;
-  std::size_t i = 1;
-  while (i < branch.size() && (determinant(branch[i].orbit) > 0.0) == positive)
-    ++i;
-  if (i == branch.size()) return std::nullopt;
-  PeriodicOrbit near = branch[i - 1].orbit;
-  bool lost = false;
-  double before = determinant(near);
-  double after = determinant(branch[i].orbit);
-  const double value = bisected(branch[i - 1].value, branch[i].value, [&](double middle) {
-    const std::optional<PeriodicOrbit> orbit =
-        find_orbit(ChainSolver(family(middle)), near.state, start.period);
-    if (!orbit) {
-      lost = true;
-      return true;
-    }
-    const double now = determinant(*orbit);
-    const bool same = (now > 0.0) == positive;
-    if (same) near = *orbit;
-    (same ? before : after) = now;
-    return same;
-  });
-  if (lost) return std::nullopt;
-  constexpr double jump = 1e-6;
-  return OrbitChange{value, std::fabs(before - after) < jump};
+  return located_doubling<ChainCycles>([&family](double at) { return ChainSolver(family(at)); }, from, to,
+                                       start);
 }
 
 } // namespace drumlin::post

@@ -82,26 +82,15 @@ struct BranchPoint {
   PeriodicOrbit orbit;
 };
 
-/// Follows the orbit `start`, stable or not, while the varied parameter goes from one value to another in
-/// `steps` steps, or more where Newton's method needs shorter ones. Ends early where no orbit is found even
-/// with a step of 1e-7 of the range, for instance where a stable and an unstable orbit meet and vanish
-/// (fold).
+/// continued_orbit() of the chain.
 std::vector<BranchPoint> continue_orbit(const ChainFamily &family, double from, double to, int steps,
                                         const PeriodicOrbit &start);
-
-/// Value of the varied parameter at which an orbit changes its kind.
-struct OrbitChange {
-  double value = 0.0; ///< value of the varied parameter, relative error 1e-11
-  bool smooth = true; ///< doubling: a multiplier passes -1; false: it jumps over -1, since the orbit meets a
-                      ///< boundary of the contact
-};
 
 /// The value between `from` and `to` at which the steady state with unbroken contact begins or ends, decided
 /// by whether the computed motion has a break. No value if the contact is unbroken at both or at neither.
 std::optional<OrbitChange> locate_contact_loss(const ChainFamily &family, double from, double to);
 
-/// Where a multiplier of the orbit that begins as `start` at `from` passes -1. No value if the sign of det(J
-/// + I) is the same at both ends or the orbit cannot be followed.
+/// located_doubling() of the chain.
 std::optional<OrbitChange> locate_doubling(const ChainFamily &family, double from, double to,
                                            const PeriodicOrbit &start);
 

@@ -116,25 +116,7 @@ ChainParameters MapGrid::at(double x_value, double y_value) const {
                         : chain.with({{x.name, x_value}, {y.name, y_value}});
 }
 
-void judge_points(const MapGrid &grid, const std::vector<std::size_t> &numbers, int threads,
-                  const std::function<void(std::size_t, const std::vector<RegimePoint> &)> &done) {
-  constexpr std::size_t at_once = 200;
-  for (std::size_t first = 0; first < numbers.size(); first += at_once) {
-    std::vector<RegimePoint> points(std::min(at_once, numbers.size() - first));
-    in_parallel(points.size(), threads, [&](std::size_t i) {
-      const std::size_t number = numbers[first + i];
-      points[i] = judge_regime(grid.at(grid.x_of(number), grid.y_of(number)), grid.cycles);
-    });
-    done(first, points);
-  }
-}
-
 namespace {
-
-// The line between two neighbours of the grid.
-struct Edge {
-  std::size_t a = 0, b = 0;
-};
 
 // The stable orbit that a chain reaches from rest within some cycles.
 std::optional<PeriodicOrbit> settled_orbit(const ChainParameters &parameters, int cycles, int period) {
@@ -147,66 +129,52 @@ std::optional<PeriodicOrbit> settled_orbit(const ChainParameters &parameters, in
   return orbit && orbit->stable() ? orbit : std::nullopt;
 }
 
-// The value between two at which contact begins to be lost, by bisection to rounding: the margin of contact
-// has one sign at `from`, the other at `to`.
-double loss_of_contact(const ChainFamily &family, double from, double to) {
-  const bool held = contact_margin(family(from)) > 0.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (from + to);
-    ((contact_margin(family(middle)) > 0.0) == held ? from : to) = middle;
+std::vector<GridEdge> edges_of(const MapGrid &grid) {
+  std::vector<GridEdge> edges;
+  const auto width = static_cast<std::size_t>(grid.x.count);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (i % width + 1 < width)
+      edges.push_back({i, i + 1, grid.x_of(i), grid.x_of(i + 1), grid.y_of(i), true});
+    if (i + width < grid.size())
+      edges.push_back({i, i + width, grid.y_of(i), grid.y_of(i + width), grid.x_of(i), false});
   }
-  return 0.5 * (from + to);
+  return edges;
 }
 
 } // namespace
 
-std::vector<BoundaryPoint> find_boundaries(const MapGrid &grid, const std::vector<RegimePoint> &points,
-                                           int threads, const std::function<void(double)> &progress) {
-  std::vector<Edge> edges;
-  const auto width = static_cast<std::size_t>(grid.x.count);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (i % width + 1 < width) edges.push_back({i, i + 1});
-    if (i + width < points.size()) edges.push_back({i, i + width});
-  }
-  std::vector<double> margin(points.size());
-  in_parallel(points.size(), threads,
-              [&](std::size_t i) { margin[i] = contact_margin(grid.at(grid.x_of(i), grid.y_of(i))); });
-
+std::vector<BoundaryPoint> boundaries_on_edges(
+    const MapGrid &grid, int threads, const std::function<void(double)> &progress,
+    const std::function<double(double x, double y)> &margin,
+    const std::function<int(std::size_t point)> &period,
+    const std::function<std::optional<OrbitChange>(const GridEdge &edge, double from, double to, int period)>
+        &doubling) {
+  const std::vector<GridEdge> edges = edges_of(grid);
+  std::vector<double> margins(grid.size());
+  in_parallel(grid.size(), threads, [&](std::size_t i) { margins[i] = margin(grid.x_of(i), grid.y_of(i)); });
   std::vector<std::vector<BoundaryPoint>> found(edges.size());
   std::atomic<std::size_t> done = 0;
   std::mutex guard;
   in_parallel(edges.size(), threads, [&](std::size_t e) {
-    const auto [a, b] = edges[e];
-    const bool along_x = b == a + 1;
-    const MapAxis &axis = along_x ? grid.x : grid.y;
-    const auto place_of = [&](std::size_t point) {
-      const std::size_t place = along_x ? point % width : point / width;
-      return static_cast<double>(place);
-    };
-    const double fixed = along_x ? grid.y_of(a) : grid.x_of(a);
-    const ChainFamily family = [&](double value) {
-      return along_x ? grid.at(value, fixed) : grid.at(fixed, value);
-    };
+    const GridEdge &edge = edges[e];
     const auto take = [&](const char *kind, double value) {
-      found[e].push_back({kind, along_x ? value : fixed, along_x ? fixed : value});
+      const auto [x, y] = edge.at(value);
+      found[e].push_back({kind, x, y});
     };
-    if ((margin[a] > 0.0) != (margin[b] > 0.0))
-      take("loss of contact", loss_of_contact(family, axis.value(place_of(a)), axis.value(place_of(b))));
+    const auto held = [&](double value) {
+      const auto [x, y] = edge.at(value);
+      return margin(x, y) > 0.0;
+    };
+    if (const bool at_a = margins[edge.a] > 0.0; at_a != (margins[edge.b] > 0.0))
+      take("loss of contact",
+           bisected(edge.from, edge.to, [&](double value) { return held(value) == at_a; }));
     // From an orbit of some period to one of another, or to none: does a multiplier of it pass -1?
-    const int period_a = points[a].period;
-    const int period_b = points[b].period;
-    if (period_a != period_b) {
-      const bool from_a = period_a != 0 && (period_b == 0 || period_a < period_b);
-      const std::size_t start = from_a ? a : b;
-      const std::size_t end = from_a ? b : a;
-      const int period = points[start].period;
-      const double from = axis.value(place_of(start));
-      if (period > 0) {
-        if (const auto orbit = settled_orbit(family(from), grid.cycles, period))
-          if (const auto change = locate_doubling(family, from, axis.value(place_of(end)), *orbit))
-            take(change->smooth ? "period doubling" : "border", change->value);
-      }
-    }
+    const int a = period(edge.a), b = period(edge.b);
+    const bool from_a = a != 0 && (b == 0 || a < b);
+    if (a != b)
+      if (const auto change =
+              doubling(edge, from_a ? edge.from : edge.to, from_a ? edge.to : edge.from, from_a ? a : b))
+        take(change->smooth ? "period doubling" : "border", change->value);
     ++done;
     if (progress) {
       const std::lock_guard<std::mutex> lock(guard);
@@ -217,6 +185,21 @@ std::vector<BoundaryPoint> find_boundaries(const MapGrid &grid, const std::vecto
   for (const std::vector<BoundaryPoint> &some : found)
     all.insert(all.end(), some.begin(), some.end());
   return all;
+}
+
+std::vector<BoundaryPoint> find_boundaries(const MapGrid &grid, const std::vector<RegimePoint> &points,
+                                           int threads, const std::function<void(double)> &progress) {
+  return boundaries_on_edges(
+      grid, threads, progress, [&](double x, double y) { return contact_margin(grid.at(x, y)); },
+      [&](std::size_t point) { return points[point].period; },
+      [&](const GridEdge &edge, double from, double to, int period) -> std::optional<OrbitChange> {
+        const ChainFamily family = [&](double value) {
+          const auto [x, y] = edge.at(value);
+          return grid.at(x, y);
+        };
+        const auto orbit = settled_orbit(family(from), grid.cycles, period);
+        return orbit ? locate_doubling(family, from, to, *orbit) : std::nullopt;
+      });
 }
 
 Sweep sweep(const MapChain &chain, const MapAxis &axis, int cycles, int kept,
@@ -237,16 +220,12 @@ Sweep sweep(const MapChain &chain, const MapAxis &axis, int cycles, int kept,
       if (progress) progress((up ? 0.0 : 0.5) + 0.5 * (i + 1) / axis.count);
     }
   for (int i = 0; i + 1 < axis.count; ++i) {
-    double from = axis.value(i);
-    double to = axis.value(i + 1);
-    const bool lasts = contact_margin(family(from)) > 0.0;
-    if (lasts != (contact_margin(family(to)) > 0.0)) {
-      for (int pass = 0; pass < 60; ++pass) {
-        const double middle = 0.5 * (from + to);
-        ((contact_margin(family(middle)) > 0.0) == lasts ? from : to) = middle;
-      }
-      result.boundaries.push_back({"loss of contact", 0.5 * (from + to), 0.0});
-    }
+    const auto lasts = [&](double value) { return contact_margin(family(value)) > 0.0; };
+    const double from = axis.value(i), to = axis.value(i + 1);
+    if (const bool at_from = lasts(from); at_from != lasts(to))
+      result.boundaries.push_back({"loss of contact",
+                                   bisected(from, to, [&](double value) { return lasts(value) == at_from; }),
+                                   0.0});
   }
   // Along the orbit of period 1 from the first value, as far as it can be followed.
   std::optional<PeriodicOrbit> orbit = settled_orbit(family(axis.from), cycles, 1);

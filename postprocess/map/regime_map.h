@@ -1,12 +1,16 @@
 // Regimes over two numbers of the chain, and motions along one.
 #pragma once
 
+#include "map/orbit_search.h"
 #include "map/regime.h"
+#include "support/parallel.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::post {
@@ -53,12 +57,21 @@ struct MapGrid {
   double x_of(std::size_t point) const;
   double y_of(std::size_t point) const;
   ChainParameters at(double x_value, double y_value) const;
+  /// What the chain settles to at a point.
+  RegimePoint judged(std::size_t point) const { return judge_regime(at(x_of(point), y_of(point)), cycles); }
 };
 
-/// Judges points of a map, given by their numbers, by several threads; `done` gets some of them after others,
+/// Judges points, given by their numbers, by several threads; `done` gets `at_once` of them after the others,
 /// in order: the place of the first in `numbers`, and the points.
-void judge_points(const MapGrid &grid, const std::vector<std::size_t> &numbers, int threads,
-                  const std::function<void(std::size_t, const std::vector<RegimePoint> &)> &done);
+template <class Point, class Judge, class Done>
+void judge_points(const std::vector<std::size_t> &numbers, int threads, std::size_t at_once,
+                  const Judge &judge, const Done &done) {
+  for (std::size_t first = 0; first < numbers.size(); first += at_once) {
+    std::vector<Point> points(std::min(at_once, numbers.size() - first));
+    in_parallel(points.size(), threads, [&](std::size_t i) { points[i] = judge(numbers[first + i]); });
+    done(first, points);
+  }
+}
 
 /// A point of a boundary between regimes, on the line between two neighbours of the grid, located to 1e-11 of
 /// it.
@@ -68,6 +81,28 @@ struct BoundaryPoint {
   double x = 0.0;
   double y = 0.0;
 };
+
+/// The line between two neighbours of a map.
+struct GridEdge {
+  std::size_t a = 0, b = 0;    ///< their numbers
+  double from = 0.0, to = 0.0; ///< value at a and b of the axis along which they are neighbours
+  double other = 0.0;          ///< of the other axis
+  bool along_x = true;
+
+  std::pair<double, double> at(double value) const { ///< x and y
+    return along_x ? std::pair(value, other) : std::pair(other, value);
+  }
+};
+
+/// Finds boundaries on all edges of a map, by several threads. \param margin of contact, at x and y, whose
+/// sign changes where unbroken contact ends \param period of the motion of each point, 0 without one
+/// \param doubling where an orbit of a period that begins at `from` of the edge doubles before `to`
+std::vector<BoundaryPoint> boundaries_on_edges(
+    const MapGrid &grid, int threads, const std::function<void(double)> &progress,
+    const std::function<double(double x, double y)> &margin,
+    const std::function<int(std::size_t point)> &period,
+    const std::function<std::optional<OrbitChange>(const GridEdge &edge, double from, double to, int period)>
+        &doubling);
 
 /// Where unbroken contact ends (closed form) and where orbits double.
 std::vector<BoundaryPoint> find_boundaries(const MapGrid &grid, const std::vector<RegimePoint> &points,

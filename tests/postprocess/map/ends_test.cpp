@@ -2,6 +2,7 @@
 // map of the command.
 #include "files/roller.h"
 #include "map/ends.h"
+#include "map/ends_map.h"
 #include "map/orbits.h"
 #include "support/csv.h"
 #include "support/files.h"
@@ -130,8 +131,8 @@ TEST(EndsModes, ADrumRocks) {
 }
 
 // CVODE goes on from the state that the machine settles to, and tells which ends leave the soil within two
-// cycles and whether the state is the same after one. The halves are never quite equal, since CVODE would find
-// one of two contacts that break at the same time.
+// cycles and whether the state is the same after one. The halves are never quite equal, since CVODE would
+// find one of two contacts that break at the same time.
 TEST(EndsModes, AreTold) {
   struct Scene {
     TwoEnds machine;
@@ -170,6 +171,65 @@ TEST(EndsModes, AreTold) {
   }
 }
 
+/// What a cycle makes of small differences of the state, by CVODE.
+TwoEndsMatrix growth_in_a_cycle(const TwoEnds &machine, const TwoEndsState &state) {
+  TwoEndsMatrix growth;
+  const TwoEndsState scale = EndsCycles{TwoEndsSolver(machine)}.scale();
+  for (int i = 0; i < 8; ++i) {
+    TwoEndsState ends[2];
+    constexpr double small = 1e-5;
+    for (int side = 0; side < 2; ++side) {
+      TwoEndsState start = state;
+      start[i] += (side == 0 ? -small : small) * scale[i];
+      TwoEndsOracle oracle(machine, start);
+      const oracle::State &end = oracle.at(machine.chain.period());
+      ends[side] = Eigen::Map<const TwoEndsState>(end.data());
+    }
+    growth.col(i) = (ends[1] - ends[0]) / (2.0 * small * scale[i]);
+  }
+  return growth;
+}
+
+// Where the map has a boundary to motions of two cycles, a difference turns its sign in a cycle and keeps its
+// size: the multiplier is -1, here by CVODE. Between the points of these rows rocking begins, or double jump.
+TEST(EndsBoundaries, HaveAMultiplierOfMinusOne) {
+  EndsFamily family;
+  const Roller roller = read_roller(DRUMLIN_SOURCE_DIR "/inputs/rollers/Axas2020");
+  set_machine(family.chain.base, roller, roller.settings.front());
+  family.chain.base.transition = Transition::B;
+  family.chain.base.D = 0.2;
+  family.roller = roller;
+  MapGrid grid;
+  grid.chain = family.chain;
+  grid.x = {"k", 35e6, 55e6, 5, false};
+  grid.y = {"ratio", 1.02, 2.0, 2, false};
+  std::vector<EndsPoint> points;
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    points.push_back(judged(family, grid, i));
+  const std::vector<BoundaryPoint> found = ends_boundaries(family, grid, points, 2);
+  int doublings = 0;
+  for (const BoundaryPoint &point : found) {
+    if (point.kind != "period doubling") continue;
+    SCOPED_TRACE(std::to_string(point.x) + " N/m, ratio " + std::to_string(point.y));
+    ++doublings;
+    const TwoEnds machine = family.at({{"k", point.x}, {"ratio", point.y}});
+    // The orbit is followed from soil on which it is stable.
+    const TwoEndsSolver below(family.at({{"k", 0.98 * point.x}, {"ratio", point.y}}));
+    TwoEndsMotion motion = below.start();
+    for (int cycle = 0; cycle < 600; ++cycle)
+      below.finish_cycle(motion);
+    const TwoEndsSolver solver(machine);
+    const auto orbit = newton_orbit(EndsCycles{solver}, motion.state, 1);
+    ASSERT_TRUE(orbit);
+    const auto multipliers = floquet_multipliers<8>(growth_in_a_cycle(machine, orbit->state));
+    double nearest = 1.0;
+    for (const std::complex<double> &one : multipliers)
+      nearest = std::min(nearest, std::abs(one + 1.0));
+    EXPECT_LT(nearest, 1e-3);
+  }
+  EXPECT_EQ(doublings, 3);
+}
+
 class EndsMapCommand : public ::testing::Test {
 protected:
   Outcome map(std::vector<std::string> words) const {
@@ -196,6 +256,18 @@ TEST_F(EndsMapCommand, WritesModesOverStiffnessAndRatio) {
        {"modes.png", "tilt.png", "contact_left.png", "contact_right.png", "index.html", "parameters.csv"})
     EXPECT_TRUE(fs::is_regular_file(scratch_ / "m" / name)) << name;
   EXPECT_GT(read_table(scratch_ / "m/boundaries.csv").rows(), 1U);
+
+  // Continued where it was interrupted, it is the same.
+  const std::string whole = read_text(scratch_ / "m/regimes.csv");
+  const std::vector<std::string> lines = lines_of(whole);
+  std::string part;
+  for (std::size_t i = 0; i < 6; ++i)
+    part += lines[i] + "\n";
+  write_files({{scratch_ / "m/regimes.csv", part}});
+  const Outcome more = well(map({"--contacts", "2", "--roller", axas_, "--D", "0.2", "--x", "k:10e6:60e6:4",
+                                 "--y", "ratio:1:3:3:log", "--out", "m"}));
+  EXPECT_TRUE(printed(more, "5 of 12 points are there already"));
+  EXPECT_EQ(read_text(scratch_ / "m/regimes.csv"), whole);
 
   well(map({"--contacts", "3", "--roller", axas_, "--D", "0.2", "--sweep", "k:20e6:60e6:5", "--out", "s"}));
   const Table sweep = read_table(scratch_ / "s/sweep.csv");

@@ -145,9 +145,11 @@ TEST(RegimeMap, BoundariesLieWhereTheEventsOfTheMotionSay) {
   std::vector<RegimePoint> points;
   std::vector<std::size_t> all(grid.size());
   std::iota(all.begin(), all.end(), 0U);
-  judge_points(grid, all, 2, [&](std::size_t, const std::vector<RegimePoint> &more) {
-    points.insert(points.end(), more.begin(), more.end());
-  });
+  judge_points<RegimePoint>(
+      all, 2, 5, [&](std::size_t point) { return grid.judged(point); },
+      [&](std::size_t, const std::vector<RegimePoint> &more) {
+        points.insert(points.end(), more.begin(), more.end());
+      });
   ASSERT_EQ(points.size(), grid.size());
   int losses = 0;
   int doublings = 0;
