@@ -77,6 +77,9 @@ Panel map_panel(const MapGrid &grid, const std::string &title) {
   panel.y_label = y.label;
   panel.log_x = grid.x.log;
   panel.log_y = grid.y.log;
+  constexpr double few = 30.0; // powers of ten would be one or two
+  panel.plain_numbers = grid.x.to < few * grid.x.from;
+  panel.plain_y = grid.y.to < few * grid.y.from;
   panel.x_range = axis_range(x.scale * grid.x.from, x.scale * grid.x.to);
   panel.y_range = axis_range(y.scale * grid.y.from, y.scale * grid.y.to);
   return panel;

@@ -114,9 +114,9 @@ double tic_lines(const Panel &panel) {
   return line_per_letter * static_cast<double>(longest_tic(panel));
 }
 
-/// Numbers on a logarithmic axis x, for any range of it from 1e-3 to 1e4.
-std::string plain_log_tics() {
-  std::string s = "  set xtics (";
+/// Numbers on a logarithmic axis, x or y, for any range of it from 1e-3 to 1e4.
+std::string plain_log_tics(char axis) {
+  std::string s = fmt::format("  set {}tics (", axis);
   for (int power = -3; power < 4; ++power)
     for (const int digit : {1, 2, 5})
       s += fmt::format("{}{}e{}", s.back() == '(' ? "" : ", ", digit, power);
@@ -127,7 +127,7 @@ std::string x_axis_script(const Panel &panel) {
   std::string s;
   if (panel.x_ticks.empty()) {
     s += fmt::format("  set xtics {} norotate\n  set autoscale x\n", panel.whole_x ? "1" : "autofreq");
-    if (panel.log_x && panel.plain_numbers) s += plain_log_tics();
+    if (panel.log_x && panel.plain_numbers) s += plain_log_tics('x');
     s += panel.tight_x ? "  set autoscale xfix\n  set offsets 0, 0, 0, 0\n"
                        : "  set offsets graph 0.04, graph 0.04, 0, 0\n";
     if (!panel.x_range.empty())
@@ -203,7 +203,8 @@ std::string panel_script(const Panel &panel, int width, bool is_empty) {
   s += "  unset logscale\n";
   s += panel.log_x ? "  set logscale x\n" : "";
   s += panel.log_x && !panel.plain_numbers ? "  set format x '10^{%T}'\n" : "  set format x '%g'\n";
-  s += panel.log_y ? "  set logscale y\n  set format y '10^{%T}'\n" : "  set format y '%g'\n";
+  s += panel.log_y ? "  set logscale y\n" : "";
+  s += panel.log_y && !panel.plain_y ? "  set format y '10^{%T}'\n" : "  set format y '%g'\n";
   s += fmt::format("  set yrange {}\n", panel.y_range.empty() ? "[*:*]" : panel.y_range);
   const Legend legend = legend_of(panel, width);
   const double tics_and_label = panel.x_ticks.empty() ? 4.0 : 2.0; // lines of text
@@ -213,6 +214,7 @@ std::string panel_script(const Panel &panel, int width, bool is_empty) {
                    legend.wider_png);
   s += x_axis_script(panel);
   s += panel.whole_y ? "  set ytics 1\n" : "  set ytics autofreq\n";
+  if (panel.log_y && panel.plain_y) s += plain_log_tics('y');
   if (panel.equal_scales) s += "  set size ratio -1\n";
   s += color_script(panel);
   if (is_empty) {

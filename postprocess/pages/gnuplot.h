@@ -87,6 +87,7 @@ struct Panel {
   bool color_whole = false;     ///< one colour per whole number
   bool whole_x = false, whole_y = false; ///< numbers at whole steps only, as of passes
   bool plain_numbers = false; ///< a logarithmic axis x has 1, 2, 5, 10, ... instead of powers of ten
+  bool plain_y = false;       ///< and so has a logarithmic axis y
 
   /// Adds a curve with another text in the legend than its own; empty: not in the legend.
   void add(Curve curve, std::string legend) {
