@@ -188,6 +188,7 @@ void add_study_command(CLI::App &app, Session &) {
       "  fidelity   effect and time of each part of a bed's model; `drumlin advise --bed` answers "
       "from it\n"
       "  friction   the friction models coulomb and history\n"
+      "  penetration a ball that sinks into a bed, against laws that others measured\n"
       "  scatter    how many beds give a result within 5 or 10 %; A against B\n"
       "  stiffness  k and D that `drumlin identify` finds, over load, force and frequency\n"
       "  suction    what suction adds to the strength of a soil, in the biaxial test\n"

@@ -289,6 +289,23 @@ BadGroup spheres() {
         "drumlin/variables: -var material is 'glass', a variable that this deck does not have"}});
 }
 
+BadGroup penetration() {
+  return of_deck(
+      "Penetration", "benchmarks/in.penetration",
+      {{"radius density E e drag ball_radius ball_density ball_E ball_e speed g sample", "0 -1 nan",
+        positive},
+       {"mu ball_mu", "-0.5", non_negative},
+       {"seed columns layers steps_per_contact rows", "0 2.5", whole},
+       {"spread", "-0.1", non_negative},
+       {"law", "linear", "transition or own"},
+       {"stepping", "half", "second or stock"}},
+      {{"balls that differ too much", "spread 0.5",
+        "drumlin/check: variable spread is '0.5' ... at most 0.3"},
+       {"a drag that turns velocities round", "drag 1e6", "drumlin/check: variable drag is '1e6' ... below"},
+       {"a ball that meets itself", "columns 3",
+        "drumlin/check: variable ball_radius is '0.01' ... half the side of the box", on_two_ranks}});
+}
+
 BadGroup biaxial() {
   const std::string lattice = "sample hexagonal, columns 4, layers 5, seating 100, ";
   return of_deck(
@@ -423,6 +440,7 @@ std::vector<BadGroup> bad_variables() {
           bed(),
           oedometer(),
           density(),
+          penetration(),
           spheres(),
           biaxial(),
           triaxial(),
