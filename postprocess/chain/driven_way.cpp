@@ -2,13 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <random>
 
 namespace drumlin::post {
 
-std::vector<WaySection> drive(const Way &way, double speed, int passes) {
+WaySection WaySection::from(double time) const {
+  const double since = time - begin;
+  WaySection rest = *this;
+  rest.begin = time;
+  rest.k += k_rate * since;
+  rest.D = std::max(0.0, D + D_rate * since);
+  rest.s += velocity * since;
+  rest.k_left += k_left_rate * since;
+  return rest;
+}
+
+std::vector<WaySection> drive(const Way &way, double speed, int passes, WayBack back) {
   const double length = way.back().s - way.front().s;
   std::vector<WaySection> sections;
   sections.reserve(static_cast<std::size_t>(passes) * way.size());
@@ -33,6 +45,10 @@ std::vector<WaySection> drive(const Way &way, double speed, int passes) {
       section.s = from.s;
       section.velocity = forth ? speed : -speed;
       section.pass = pass + 1;
+      const bool swapped = !forth && back == WayBack::turned_round;
+      const auto left = [swapped](const WayRow &row) { return swapped ? row.k_right() : row.k_left; };
+      section.k_left = left(from);
+      section.k_left_rate = (left(to) - left(from)) / duration;
       if (section.end > section.begin) sections.push_back(section);
     }
   }
@@ -60,15 +76,18 @@ Way random_way(const RandomSoil &soil) {
       const double kept = std::exp(-(s - way.back().s) / soil.correlation);
       z = kept * z + std::sqrt(1.0 - kept * kept) * normal();
     }
-    way.push_back({s, std::exp(middle + std::sqrt(variance) * z), soil.D});
+    const double k = std::exp(middle + std::sqrt(variance) * z);
+    way.push_back({s, k, soil.D, k * (soil.ratio / (1.0 + soil.ratio))});
   }
   return way;
 }
 
 std::string way_text(const Way &way) {
-  std::string text = fmt::format("{}\n", way_file::header);
-  for (const WayRow &row : way)
-    text += fmt::format("{},{},{}\n", row.s, row.k, row.D); // come back bit for bit
+  const bool sides = has_sides(way);
+  std::string text = fmt::format("{}\n", sides ? way_file::header_of_halves : way_file::header);
+  for (const WayRow &row : way) // with all of their digits
+    text += sides ? fmt::format("{},{},{},{}\n", row.s, row.k_left, row.k_right(), row.D)
+                  : fmt::format("{},{},{}\n", row.s, row.k, row.D);
   return text;
 }
 

@@ -44,6 +44,28 @@ Vector4d weight(const TwoEnds &machine) {
 }
 
 bool every(std::size_t /*link*/) { return true; }
+bool none(std::size_t /*link*/) { return false; }
+
+/// What a contact has of a number of both halves of the drum, which `contacts` share.
+double part_of(const AxleLink &contact, std::size_t contacts, double left, double right) {
+  const double part = 2.0 / static_cast<double>(contacts);
+  return contact.y == 0.0 ? 0.5 * part * (left + right) : part * (contact.y < 0.0 ? left : right);
+}
+
+/// The rates of k of contacts over a section [N/(m s)].
+double rate_of(const AxleLink &contact, std::size_t contacts, const WaySection &section) {
+  return part_of(contact, contacts, section.k_left_rate, section.k_rate - section.k_left_rate);
+}
+
+/// Contacts at the start of a section.
+std::vector<AxleLink> at_start(std::vector<AxleLink> contacts, const WaySection &section, double m2) {
+  const double damping = 2.0 * section.D * std::sqrt(m2 / section.k); // c over k
+  for (AxleLink &contact : contacts) {
+    contact.k = part_of(contact, contacts.size(), section.k_left, section.k - section.k_left);
+    contact.c = contact.k * damping;
+  }
+  return contacts;
+}
 
 double norm_of(const Matrix4d &matrix, const Vector4d &mass) {
   const Vector4d scale = mass.cwiseSqrt().cwiseInverse();
@@ -66,6 +88,25 @@ TwoEnds two_ends(const ChainParameters &chain, const Roller &roller) {
   machine.sensor = axle.sensor;
   machine.bonds = std::move(axle.bonds);
   return machine;
+}
+
+void set_ratio(std::vector<AxleLink> &contacts, double ratio) {
+  for (AxleLink &contact : contacts) {
+    if (contact.y == 0.0) continue;
+    const double share = 2.0 / (1.0 + ratio) * (contact.y < 0.0 ? ratio : 1.0);
+    contact.k *= share;
+    contact.c *= share;
+  }
+}
+
+TwoEnds over(TwoEnds machine, const WaySection &section) {
+  machine.section = section;
+  machine.contacts = at_start(std::move(machine.contacts), section, machine.chain.m2);
+  return machine;
+}
+
+std::vector<AxleLink> TwoEnds::contacts_at(double time) const {
+  return section && !section->constant() ? at_start(contacts, section->from(time), chain.m2) : contacts;
 }
 
 double drum_width(const Roller &roller) { return axle_machine(roller, 0.0, 0.0, 0.0, 0.0).width; }
@@ -96,14 +137,16 @@ std::string TwoEnds::invalid() const {
 
 // ---- linear dynamics ----
 
-ContactSet::ContactSet(const TwoEnds &machine, std::uint32_t acting) : omega_(machine.chain.omega) {
+ContactSet::ContactSet(const TwoEnds &machine, std::uint32_t acting, double time)
+    : omega_(machine.chain.omega), m2_(machine.chain.m2) {
   const auto acts = [acting](std::size_t contact) { return ((acting >> contact) & 1U) != 0; };
   const Vector4d mass = masses(machine);
-  const Moments k(machine.contacts, &AxleLink::k, acts), c(machine.contacts, &AxleLink::c, acts);
-  const Moments k_bonds(machine.bonds, &AxleLink::k, every);
-  const Matrix4d stiffness = matrix_of(k, k_bonds);
-  const Matrix4d damping = matrix_of(c, Moments(machine.bonds, &AxleLink::c, every));
-  sums_ = {k.all, k.first, c.all, c.first};
+  const Matrix4d inverse = mass.cwiseInverse().asDiagonal();
+  const std::vector<AxleLink> contacts = machine.contacts_at(time);
+  const Moments k(contacts, &AxleLink::k, acts), c(contacts, &AxleLink::c, acts);
+  const Moments k_bonds(machine.bonds, &AxleLink::k, every), c_bonds(machine.bonds, &AxleLink::c, every);
+  const Matrix4d stiffness = matrix_of(k, k_bonds), damping = matrix_of(c, c_bonds);
+  springs_ = {{k.all, k.first}, {0.0, 0.0}, {c.all, c.first}};
   const double C = norm_of(damping, mass);
   rate_ = std::max(omega_, 0.5 * C + std::sqrt(0.25 * C * C + norm_of(stiffness, mass)));
   const AxlePositions rest = held_by(k, k_bonds, weight(machine)[drum], weight(machine)[frame]);
@@ -115,10 +158,35 @@ ContactSet::ContactSet(const TwoEnds &machine, std::uint32_t acting) : omega_(ma
   for (int i = 0; i < 4; ++i)
     if (std::fabs(left[i]) <= 1e-14 * weight(machine).norm()) left[i] = 0.0;
   const Vector4d push = {-machine.chain.Fw, 0.0, -machine.exciter * machine.chain.Fw, 0.0};
-  stiffness_ = mass.cwiseInverse().asDiagonal() * stiffness;
-  damping_ = mass.cwiseInverse().asDiagonal() * damping;
+  stiffness_ = inverse * stiffness;
+  damping_ = inverse * damping;
   gravity_ = left.cwiseQuotient(mass);
   push_ = push.cwiseQuotient(mass);
+
+  changes_ = machine.section && !machine.section->constant();
+  if (!changes_) return;
+  section_ = machine.section->from(time);
+  std::vector<AxleLink> rates = contacts;
+  for (AxleLink &contact : rates)
+    contact.k = rate_of(contact, contacts.size(), section_);
+  const Moments k_rate(rates, &AxleLink::k, acts), nothing(machine.bonds, &AxleLink::k, none);
+  springs_.k_rate = {k_rate.all, k_rate.first};
+  contacts_ = inverse * matrix_of(k, nothing);
+  contacts_rate_ = inverse * matrix_of(k_rate, nothing);
+  damping_ = inverse * matrix_of(nothing, c_bonds);
+  // In a piece k and D change by a tenth at most: the series of 1/sqrt(k) is then as short as that of the
+  // motion, and the norm grows by less than a fifth.
+  constexpr double share = 0.1, growth = 1.2;
+  const double fastest = std::max({std::fabs(section_.k_left_rate) / section_.k,
+                                   std::fabs(section_.k_rate - section_.k_left_rate) / section_.k,
+                                   std::fabs(section_.D_rate) / std::max(1.0, section_.D)});
+  longest_change_ = share / fastest;
+  rate_ *= growth;
+}
+
+double ContactSet::damping_over_stiffness(double since) const {
+  return 2.0 * (section_.D + section_.D_rate * since) *
+         std::sqrt(m2_ / (section_.k + section_.k_rate * since));
 }
 
 TwoEndsState ContactSet::Piece::state(double s) const {
@@ -136,6 +204,20 @@ void ContactSet::expand(Piece &piece, const TwoEndsState &from, double length, d
                         double cosine) const {
   piece.length = length;
   piece.terms = terms_of_series(length * rate_);
+  piece.changes = changes_;
+  if (changes_) {
+    // After this number of terms the series of 1/sqrt(1 + x) is below 1e-18 for x = 0.1.
+    constexpr std::size_t least_terms = 18;
+    piece.terms = std::max(piece.terms, least_terms);
+    const double k_share = length * section_.k_rate / section_.k;
+    double root = 2.0 * std::sqrt(m2_ / section_.k), before = 0.0; // terms of 2 sqrt(m2/k)
+    for (std::size_t n = 0; n < piece.terms; ++n) {
+      piece.damping[n] = section_.D * root + length * section_.D_rate * before;
+      before = root;
+      root *= -k_share * (static_cast<double>(n) + 0.5) / static_cast<double>(n + 1);
+    }
+  }
+  std::array<Vector4d, most_terms> rates; // stiffness of the contacts times velocities, per mass
   const double turn = omega_ * length;
   double s = sine, c = cosine;
   piece.position[0] = from.head<4>() - rest_;
@@ -146,6 +228,15 @@ void ContactSet::expand(Piece &piece, const TwoEndsState &from, double length, d
     piece.position[n + 1] = factor * piece.velocity[n];
     Vector4d force = s * push_ - stiffness_ * piece.position[n] - damping_ * piece.velocity[n];
     if (n == 0) force += gravity_;
+    if (changes_) {
+      rates[n] = contacts_ * piece.velocity[n];
+      if (n > 0) {
+        rates[n] += length * (contacts_rate_ * piece.velocity[n - 1]);
+        force -= length * (contacts_rate_ * (n == 1 ? piece.position[0] + rest_ : piece.position[n - 1]));
+      }
+      for (std::size_t m = 0; m <= n; ++m)
+        force -= piece.damping[m] * rates[n - m];
+    }
     piece.velocity[n + 1] = factor * force;
     const double next = turn * share * c;
     c = -turn * share * s;
@@ -154,8 +245,34 @@ void ContactSet::expand(Piece &piece, const TwoEndsState &from, double length, d
   piece.position[0] += rest_;
 }
 
-Vector4d ContactSet::acceleration(const TwoEndsState &state, double sine) const {
-  return gravity_ + sine * push_ - stiffness_ * (state.head<4>() - rest_) - damping_ * state.tail<4>();
+void ContactSet::Piece::law(const AxleSprings &springs, std::array<double, most_terms> &values) const {
+  const auto product = [](const Eigen::Vector2d &sums, const Vector4d &x) {
+    return sums[0] * x[drum] + sums[1] * x[drum_tilt];
+  };
+  std::array<double, most_terms> rates{};
+  for (std::size_t n = 0; n < terms; ++n) {
+    values[n] = product(springs.k, position[n]);
+    if (!changes) {
+      values[n] += product(springs.c, velocity[n]);
+      continue;
+    }
+    rates[n] = product(springs.k, velocity[n]);
+    if (n > 0) {
+      values[n] += length * product(springs.k_rate, position[n - 1]);
+      rates[n] += length * product(springs.k_rate, velocity[n - 1]);
+    }
+    for (std::size_t m = 0; m <= n; ++m)
+      values[n] += damping[m] * rates[n - m];
+  }
+}
+
+Vector4d ContactSet::acceleration(const TwoEndsState &state, double sine, double since) const {
+  const Vector4d from_rest = state.head<4>() - rest_, rates = state.tail<4>();
+  Vector4d sum = gravity_ + sine * push_ - stiffness_ * from_rest - damping_ * rates;
+  if (changes_)
+    sum -= since * (contacts_rate_ * state.head<4>()) +
+           damping_over_stiffness(since) * (contacts_ * rates + since * (contacts_rate_ * rates));
+  return sum;
 }
 
 TwoEndsMatrix ContactSet::carry(const TwoEndsMatrix &differences, double time) const {
@@ -217,43 +334,42 @@ TwoEndsMotion TwoEndsSolver::start(double impact_speed) const {
   return motion;
 }
 
-double TwoEndsSolver::force(const TwoEndsMotion::Contact &contact, std::size_t index,
-                            const TwoEndsState &state) const {
-  if (contact.phase != ContactPhase::contact) return 0.0;
-  const AxleLink &link = machine_.contacts[index];
-  const double value = -(link.k * height(state, link.y) + link.c * rise(state, link.y));
-  return machine_.chain.transition == Transition::B ? std::max(0.0, value) : value;
-}
-
 // The first event that ends the present phase of a contact, at d = 0 (0) or at F = 0 (1). The function of
 // each is negative before its event and positive after it.
-TwoEndsSolver::Exit TwoEndsSolver::first_exit(const ContactSet::Piece &piece, std::size_t contact,
-                                              const TwoEndsMotion::Contact &now) const {
-  const AxleLink &link = machine_.contacts[contact];
+TwoEndsSolver::Exit TwoEndsSolver::first_exit(const ContactSet::Piece &piece, const AxleLink &link,
+                                              double k_rate, const TwoEndsMotion::Contact &now) const {
   const bool by_force = machine_.chain.transition == Transition::B && now.phase != ContactPhase::flight;
   const bool by_gap = now.phase != ContactPhase::contact || machine_.chain.transition == Transition::A;
   // Just after an event of this contact its function is zero but for rounding.
   const bool just_left = piece.begin - now.changed <= 1e-12 * machine_.chain.period();
   std::array<double, most_terms> values{};
   Exit first;
-  const auto look = [&](int index, double k, double c) {
-    for (std::size_t n = 0; n < piece.terms; ++n)
-      values[n] = k * (piece.position[n][drum] + link.y * piece.position[n][drum_tilt]) +
-                  c * (piece.velocity[n][drum] + link.y * piece.velocity[n][drum_tilt]);
+  const auto look = [&](int index) {
     if (just_left && now.boundary == index) values[0] = std::min(0.0, values[0]);
     const double share = first_upcrossing(values.data(), piece.terms);
     if (share <= 1.0 && share < first.share) first = {index, share};
   };
-  if (by_gap) look(0, now.phase == ContactPhase::flight ? -1.0 : 1.0, 0.0);
+  if (by_gap) {
+    const double sign = now.phase == ContactPhase::flight ? -1.0 : 1.0;
+    for (std::size_t n = 0; n < piece.terms; ++n)
+      values[n] = sign * (piece.position[n][drum] + link.y * piece.position[n][drum_tilt]);
+    look(0);
+  }
   if (by_force) {
     const double sign = now.phase == ContactPhase::contact ? 1.0 : -1.0;
-    look(1, sign * link.k, sign * link.c);
+    const Eigen::Vector2d place = {sign, sign * link.y};
+    piece.law({link.k * place, k_rate * place, link.c * place}, values);
+    look(1);
   }
   return first;
 }
 
+double TwoEndsSolver::time_of(const TwoEndsMotion &motion) const {
+  return static_cast<double>(motion.cycle) * machine_.chain.period() + motion.time;
+}
+
 ContactChange TwoEndsSolver::leave(TwoEndsMotion &motion, std::size_t contact, int exit) const {
-  const AxleLink &link = machine_.contacts[contact];
+  const AxleLink link = machine_.contacts_at(time_of(motion))[contact];
   TwoEndsMotion::Contact &now = motion.contacts[contact];
   ContactChange change;
   change.contact = contact;
@@ -291,11 +407,47 @@ ContactChange TwoEndsSolver::leave(TwoEndsMotion &motion, std::size_t contact, i
   return change;
 }
 
+void TwoEndsSolver::drive_over(const WaySection &section, TwoEndsMotion &motion, TwoEndsObserver *observer) {
+  const std::vector<AxleLink> before = machine_.contacts_at(time_of(motion));
+  machine_ = over(std::move(machine_), section);
+  sets_.clear();
+  for (std::size_t j = 0; j < before.size(); ++j) {
+    const AxleLink &link = machine_.contacts[j];
+    TwoEndsMotion::Contact &now = motion.contacts[j];
+    const double rounding = 1e-12;
+    if (std::fabs(link.k - before[j].k) <= rounding * link.k &&
+        std::fabs(link.c - before[j].c) <= rounding * link.c)
+      continue;
+    if (now.boundary == 1) now.boundary = -1; // where F was 0, it no longer is
+    const double z = height(motion.state, link.y), rate = rise(motion.state, link.y);
+    if (machine_.chain.transition == Transition::A || z >= 0.0) continue;
+    const auto law = [&](const AxleLink &of) { return 0.0 - (of.k * z + of.c * rate); };
+    const ContactPhase phase = law(link) > 0.0 ? ContactPhase::contact : ContactPhase::clamped;
+    if (phase == now.phase) continue;
+    const bool make = phase == ContactPhase::contact;
+    if (observer != nullptr)
+      observer->change({j, now.phase, phase, motion.time, 0.0 - z, 0.0 - rate,
+                        std::max(0.0, law(make ? link : before[j])), 0.0});
+    now = {phase, -1, motion.time};
+  }
+}
+
 void TwoEndsSolver::finish_cycle(TwoEndsMotion &motion, TwoEndsObserver *observer) const {
-  constexpr int most_changes = 100'000;
   const double end = machine_.chain.period();
-  const double nothing = 1e-15 * end;
+  go_to(end, motion, observer);
+  motion.time = 0.0;
+  ++motion.cycle;
+  for (TwoEndsMotion::Contact &contact : motion.contacts)
+    contact.changed -= end;
+}
+
+void TwoEndsSolver::go_to(double end, TwoEndsMotion &motion, TwoEndsObserver *observer) const {
+  constexpr int most_changes = 100'000;
+  const double nothing = 1e-15 * machine_.chain.period();
+  const bool soil_changes = machine_.section && !machine_.section->constant();
   const std::size_t count = machine_.contacts.size();
+  std::vector<AxleLink> contacts = machine_.contacts;
+  std::optional<ContactSet> of_now; // where the soil changes
   ContactSet::Piece piece;
   std::array<Exit, most_contacts> exits;
   int changes = 0;
@@ -303,7 +455,11 @@ void TwoEndsSolver::finish_cycle(TwoEndsMotion &motion, TwoEndsObserver *observe
     std::uint32_t acting = 0;
     for (std::size_t j = 0; j < count; ++j)
       if (motion.contacts[j].phase == ContactPhase::contact) acting |= 1U << j;
-    const ContactSet &dynamics = set(acting);
+    if (soil_changes) {
+      contacts = machine_.contacts_at(time_of(motion));
+      of_now.emplace(machine_, acting, time_of(motion));
+    }
+    const ContactSet &dynamics = soil_changes ? *of_now : set(acting);
     const double left = end - motion.time;
     const bool last = left <= dynamics.longest_piece();
     const double length = last ? left : dynamics.longest_piece();
@@ -312,7 +468,8 @@ void TwoEndsSolver::finish_cycle(TwoEndsMotion &motion, TwoEndsObserver *observe
     dynamics.expand(piece, motion.state, length, std::sin(angle), std::cos(angle));
     piece.end = 2.0;
     for (std::size_t j = 0; j < count; ++j) {
-      exits[j] = first_exit(piece, j, motion.contacts[j]);
+      const double k_rate = soil_changes ? rate_of(contacts[j], count, *machine_.section) : 0.0;
+      exits[j] = first_exit(piece, contacts[j], k_rate, motion.contacts[j]);
       piece.end = std::min(piece.end, exits[j].share);
     }
     const bool event = piece.end <= 1.0;
@@ -331,10 +488,6 @@ void TwoEndsSolver::finish_cycle(TwoEndsMotion &motion, TwoEndsObserver *observe
             fmt::format("more than {} contacts made and broken in cycle {}", most_changes, motion.cycle + 1));
     }
   }
-  motion.time = 0.0;
-  ++motion.cycle;
-  for (TwoEndsMotion::Contact &contact : motion.contacts)
-    contact.changed -= end;
 }
 
 namespace {
@@ -385,7 +538,7 @@ public:
              period_),
         last_row_(options.last_point() / options.points_per_sample()) {
     for (const HistoryColumn &column : history_columns)
-      if (column.group != ColumnGroup::way)
+      if (column.group != ColumnGroup::way || !options.way.empty())
         (result_.history.*column.values).reserve(static_cast<std::size_t>(last_row_) + 1);
   }
 
@@ -409,7 +562,8 @@ public:
       const double t = next_ * period_ / options_.samples_per_cycle;
       const double s = (t - piece.begin) / piece.length;
       if (s >= piece.end) break;
-      row(set, acting, t, piece.state(std::max(0.0, s)));
+      const double since = std::max(0.0, s) * piece.length;
+      row(set, acting, t, piece.state(std::max(0.0, s)), since);
     }
   }
   void change(const ContactChange &change) override {
@@ -423,12 +577,14 @@ public:
     result_.events.push_back({start_ + change.time, make, change.overlap, change.overlap_rate, change.force,
                               1, 2 + static_cast<long>(change.contact)});
   }
-  void row(const ContactSet &set, std::uint32_t acting, double t, const TwoEndsState &y) {
+  /// \param since the time of the set's contacts [s]
+  void row(const ContactSet &set, std::uint32_t acting, double t, const TwoEndsState &y, double since = 0.0) {
+    const std::vector<AxleLink> contacts = machine_.contacts_at(start_ + t);
     const bool clipped = machine_.chain.transition == Transition::B;
     double F_left = 0.0, F_right = 0.0;
-    for (std::size_t j = 0; j < machine_.contacts.size(); ++j) {
+    for (std::size_t j = 0; j < contacts.size(); ++j) {
       if (((acting >> j) & 1U) == 0) continue;
-      const AxleLink &link = machine_.contacts[j];
+      const AxleLink &link = contacts[j];
       double force = -(link.k * height(y, link.y) + link.c * rise(y, link.y));
       if (clipped) force = std::max(0.0, force);
       if (link.y == 0.0) {
@@ -439,7 +595,7 @@ public:
       }
     }
     const double sine = std::sin(machine_.chain.omega * t);
-    const Vector4d a = set.acceleration(y, sine);
+    const Vector4d a = set.acceleration(y, sine, since);
     ChainHistory &h = result_.history;
     h.time.push_back(start_ + t);
     h.x_drum.push_back(y[drum]);
@@ -461,6 +617,10 @@ public:
     h.a_right.push_back(a[drum] + machine_.sensor * a[drum_tilt]);
     h.F_left.push_back(F_left);
     h.F_right.push_back(F_right);
+    if (machine_.section) {
+      h.s.push_back(machine_.section->place(start_ + t));
+      h.pass.push_back(machine_.section->pass);
+    }
   }
   DirectResult take() { return std::move(result_); }
 
@@ -469,12 +629,10 @@ private:
   void summarize(const ContactSet::Piece &piece, const ContactSet &set, std::uint32_t acting) {
     std::array<double, most_terms> a{};
     std::array<double, most_terms> F{};
-    const Vector4d &sums = set.sums();
+    piece.law(set.springs(), F);
     double power = 1.0; // of piece.end
     for (std::size_t n = 0; n < piece.terms; ++n, power *= piece.end) {
-      const Vector4d &x = piece.position[n], &v = piece.velocity[n];
-      F[n] =
-          -(sums[0] * x[drum] + sums[1] * x[drum_tilt] + sums[2] * v[drum] + sums[3] * v[drum_tilt]) * power;
+      F[n] *= -power;
       if (n + 1 < piece.terms)
         a[n] = static_cast<double>(n + 1) * piece.velocity[n + 1][drum] / piece.length * power;
     }
@@ -560,8 +718,22 @@ TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMoti
 } // namespace
 
 std::string too_much_work(const TwoEnds &machine, const DirectOptions &options) {
-  constexpr double most_pieces = 2e7;
-  const double per_cycle = machine.chain.period() / ContactSet(machine, ~0U).longest_piece() + 1.0;
+  TwoEnds stiffest = machine;
+  double most_pieces = 2e7;
+  if (!options.way.empty()) {
+    WaySection most;
+    for (const WaySection &section : options.way) {
+      for (const WaySection &here : {section, section.from(section.end)}) {
+        most.k_left = std::max(most.k_left, here.k_left);
+        most.k = std::max(most.k, here.k - here.k_left); // of the right half, here
+        most.D = std::max(most.D, here.D);
+      }
+      if (!section.constant()) most_pieces = 2e6; // each takes longer
+    }
+    most.k += most.k_left;
+    stiffest = over(std::move(stiffest), most);
+  }
+  const double per_cycle = machine.chain.period() / ContactSet(stiffest, ~0U).longest_piece() + 1.0;
   if (std::ceil(options.cycles) * per_cycle <= most_pieces) return {};
   return refusal(
       "cycles", options.cycles,
@@ -573,13 +745,20 @@ std::string too_much_work(const TwoEnds &machine, const DirectOptions &options) 
 TwoEndsResult solve_two_ends(const TwoEnds &machine, const DirectOptions &options,
                              const SolverProgress &progress) {
   if (const std::string fault = options.invalid(); !fault.empty()) throw std::invalid_argument(fault);
-  if (!options.way.empty()) throw std::invalid_argument("a machine with two ends does not drive along a way");
-  const TwoEndsSolver solver(machine);
+  std::vector<WaySection> way = options.way;
+  const bool drives = !way.empty();
+  if (drives) { // its last cycle is followed to its end: the soil then stays as it is
+    WaySection &behind = way.emplace_back(way.back().from(way.back().end));
+    behind.velocity = behind.k_rate = behind.D_rate = behind.k_left_rate = 0.0;
+  }
+  auto section = way.begin();
+  TwoEndsSolver solver(drives ? over(machine, *section) : machine);
   Recorder recorder(solver.machine(), options);
   TwoEndsMotion motion = solver.start(options.impact_speed);
   std::vector<TwoEndsMotion> motions = {motion};
   const long whole = options.last_point() / options.points_per_cycle();
   const bool part = whole == 0 || options.last_point() % options.points_per_cycle() != 0;
+  const double period = machine.chain.period();
   const auto acting = [&] {
     std::uint32_t bits = 0;
     for (std::size_t j = 0; j < machine.contacts.size(); ++j)
@@ -591,11 +770,17 @@ TwoEndsResult solve_two_ends(const TwoEnds &machine, const DirectOptions &option
     if (cycle == 0)
       for (std::size_t j = 0; j < machine.contacts.size(); ++j)
         if (motion.contacts[j].changed == 0.0) { // made at the start
-          const AxleLink &link = machine.contacts[j];
+          const AxleLink &link = solver.machine().contacts[j];
           const double rate = 0.0 - rise(motion.state, link.y);
           recorder.change(
               {j, ContactPhase::flight, ContactPhase::contact, 0.0, 0.0, rate, link.c * rate + 0.0, link.c});
         }
+    while (way.end() - section > 1) {
+      const double end = section->end - static_cast<double>(cycle) * period;
+      if (end >= period) break;
+      solver.go_to(end, motion, &recorder);
+      solver.drive_over(*++section, motion, &recorder);
+    }
     solver.finish_cycle(motion, &recorder);
     if (cycle < whole) {
       recorder.end_cycle();
@@ -606,11 +791,12 @@ TwoEndsResult solve_two_ends(const TwoEnds &machine, const DirectOptions &option
   }
   if (!part) {
     recorder.begin_cycle(whole);
-    recorder.row(ContactSet(machine, acting()), acting(), 0.0, motion.state);
+    recorder.row(ContactSet(solver.machine(), acting(), static_cast<double>(whole) * period), acting(), 0.0,
+                 motion.state);
   }
   TwoEndsResult result;
   static_cast<DirectResult &>(result) = recorder.take();
-  result.orbit = orbit_of(solver, motions);
+  if (!drives) result.orbit = orbit_of(solver, motions);
   return result;
 }
 

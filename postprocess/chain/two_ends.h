@@ -9,20 +9,25 @@
 //     B_i = k_i e_i + c_i e_i',                          e_i = z3 - z2 + y_i (th3 - th2)
 //
 // with 2 the drum and 3 the frame, whose centres of mass are at y = 0, y to the right along the axle, z up.
+// Where a roller drives over soil that changes linearly along its way, k_j is linear in time, and c_j/k_j a
+// power series in it: so is the motion.
 #pragma once
 
 #include "chain/closed_form.h"
 #include "chain/direct_solver.h"
+#include "chain/driven_way.h"
 #include "chain/parameters.h"
 #include "files/axle_links.h"
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
-#include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,7 +50,13 @@ struct TwoEnds {
   double tilt = 0.0;          ///< of drum and frame at the start, besides that of equilibrium [rad]
   std::vector<AxleLink> contacts;
   std::vector<AxleLink> bonds;
+  /// Where it drives: k and c of the contacts then follow from the halves of k there. Contacts left of the
+  /// middle have equal parts of the left half, those right of it of the right one, one in the middle half as
+  /// much of either; c is shared as k, and is 2 D sqrt(m2 k) in all.
+  std::optional<WaySection> section;
 
+  /// Contacts at a time since the start of the excitation [s].
+  std::vector<AxleLink> contacts_at(double time) const;
   /// Empty if it can be solved; else one line that names what cannot be and what is allowed.
   std::string invalid() const;
 };
@@ -58,39 +69,66 @@ std::vector<std::string> assumed_ends(const Roller &roller);
 /// The width of the drum [m].
 double drum_width(const Roller &roller);
 
+/// Gives contacts left of the middle k and c that are `ratio` times those of contacts right of it, of equal
+/// contacts before; a contact in the middle and the sums stay as they are.
+void set_ratio(std::vector<AxleLink> &contacts, double ratio);
+/// The machine over a section of its way, at its start.
+TwoEnds over(TwoEnds machine, const WaySection &section);
+
 /// Positions z_drum [m], z_frame [m], theta_drum [rad], theta_frame [rad], then their velocities.
 using TwoEndsState = Eigen::Matrix<double, 8, 1>;
 using TwoEndsMatrix = Eigen::Matrix<double, 8, 8>;
+
+/// Sums over springs and dashpots along the axle: of k and k y, of the same of the rate of k, and of c and c
+/// y, in N and m. With them z and theta of the drum give a force.
+struct AxleSprings {
+  Eigen::Vector2d k, k_rate, c;
+};
 
 /// The linear dynamics while a certain set of contacts acts.
 class ContactSet {
 public:
   /// \param acting bit j set: contact j acts
-  ContactSet(const TwoEnds &machine, std::uint32_t acting);
+  /// \param time of the contacts, if they change along the way, since the start of the excitation [s]
+  ContactSet(const TwoEnds &machine, std::uint32_t acting, double time = 0.0);
 
-  double longest_piece() const { return most_reach / rate_; }
+  double longest_piece() const { return std::min(most_reach / rate_, longest_change_); }
   /// Motion over a piece as a polynomial in s: position[n] and velocity[n] times s^n, as MotionPiece has it.
   struct Piece {
     std::array<Eigen::Vector4d, most_terms> position, velocity;
+    /// c over k of the contacts while they change.
+    std::array<double, most_terms> damping;
     std::size_t terms = 0;
     double begin = 0.0, length = 0.0, end = 1.0; ///< as of MotionPiece
+    bool changes = false;                        ///< whether the contacts change over it
 
     TwoEndsState state(double s) const;
+    /// k z + c z' of contacts, whose k at the start of the piece is given.
+    void law(const AxleSprings &springs, std::array<double, most_terms> &values) const;
   };
   void expand(Piece &piece, const TwoEndsState &from, double length, double sine, double cosine) const;
-  Eigen::Vector4d acceleration(const TwoEndsState &state, double sine) const;
-  /// exp(A time) applied to small differences of two motions.
+  /// \param since the time of the contacts [s]
+  Eigen::Vector4d acceleration(const TwoEndsState &state, double sine, double since = 0.0) const;
+  /// exp(A time) applied to small differences of two motions; not where contacts change.
   TwoEndsMatrix carry(const TwoEndsMatrix &differences, double time) const;
-  /// Sums over the contacts that act: of k and k y, c and c y.
-  const Eigen::Vector4d &sums() const { return sums_; }
+  /// Of the contacts that act.
+  const AxleSprings &springs() const { return springs_; }
 
 private:
+  double damping_over_stiffness(double since) const;
+
   Eigen::Matrix4d stiffness_, damping_; ///< per mass: acceleration = -stiffness x - damping v + ...
   Eigen::Vector4d gravity_, push_;      ///< accelerations; of gravity what the springs do not carry at rest
   Eigen::Vector4d rest_;                ///< positions at rest: from there small motions keep their digits
-  Eigen::Vector4d sums_;
+  AxleSprings springs_;
   double omega_ = 0.0;
   double rate_ = 0.0; ///< bound of the norm of A in scaled coordinates [1/s]
+  // Contacts that change: damping_ is then that of the bonds alone.
+  bool changes_ = false;
+  Eigen::Matrix4d contacts_, contacts_rate_; ///< stiffness of the contacts per mass, and its rate
+  WaySection section_;                       ///< from the time of the contacts on
+  double m2_ = 0.0;                          ///< of c = 2 D sqrt(m2 k) [kg]
+  double longest_change_ = std::numeric_limits<double>::infinity(); ///< [s]
 };
 
 /// Present state of a motion.
@@ -137,11 +175,14 @@ public:
   TwoEndsMotion start(double impact_speed = 0.0) const;
   /// A motion at the start of a cycle: the phases of the contacts follow from the state.
   TwoEndsMotion start_at(const TwoEndsState &state) const;
-  /// Force of a contact [N].
-  double force(const TwoEndsMotion::Contact &contact, std::size_t index, const TwoEndsState &state) const;
   /// Continues the motion to the end of the cycle. Throws std::runtime_error if it has more than 100,000
   /// changes of contacts in it.
   void finish_cycle(TwoEndsMotion &motion, TwoEndsObserver *observer = nullptr) const;
+  /// The same to a time within the cycle [s].
+  void go_to(double end, TwoEndsMotion &motion, TwoEndsObserver *observer = nullptr) const;
+  /// The soil is now that of another section of the way. Under B a step ends a contact whose force it makes a
+  /// tension, and begins one where it makes a compression of an overlap without force.
+  void drive_over(const WaySection &section, TwoEndsMotion &motion, TwoEndsObserver *observer = nullptr);
   /// The matrix that maps small differences of two motions through the next cycle, which the motion goes.
   TwoEndsMatrix monodromy(TwoEndsMotion &motion) const;
 
@@ -151,7 +192,8 @@ private:
     double share = 2.0;
   };
   const ContactSet &set(std::uint32_t acting) const;
-  Exit first_exit(const ContactSet::Piece &piece, std::size_t contact,
+  double time_of(const TwoEndsMotion &motion) const;
+  Exit first_exit(const ContactSet::Piece &piece, const AxleLink &link, double k_rate,
                   const TwoEndsMotion::Contact &now) const;
   ContactChange leave(TwoEndsMotion &motion, std::size_t contact, int exit) const;
 
@@ -176,8 +218,9 @@ struct TwoEndsResult : DirectResult {
 /// Empty if the solution takes no more than a minute; else one line that names the number of cycles.
 std::string too_much_work(const TwoEnds &machine, const DirectOptions &options);
 
-/// The history with the columns of both ends; in its events the id of contact j, counted from 1, is 1 + j.
-/// `rtol` has no effect. Throws std::invalid_argument if it cannot be solved.
+/// The history with the columns of both ends; in its events the id of contact j, counted from 1, is 1 + j. A
+/// roller that drives over options.way has no orbit. `rtol` has no effect. Throws std::invalid_argument if it
+/// cannot be solved.
 TwoEndsResult solve_two_ends(const TwoEnds &machine, const DirectOptions &options,
                              const SolverProgress &progress = {});
 

@@ -39,6 +39,7 @@ struct Arguments {
   ChainArguments chain;
   std::optional<std::string> cycles; // 30 where it stands
   std::optional<std::string> way, speed, passes;
+  bool turn_round = false;
   std::optional<std::string> contacts, tilt;
   std::string samples_per_cycle = "200";
   std::optional<std::string> rtol;
@@ -51,6 +52,7 @@ struct Drive {
   Way way;
   double speed = 0.0; ///< [m/s]
   int passes = 1;
+  WayBack back = WayBack::in_reverse;
 };
 
 /// A drum with two ends.
@@ -82,11 +84,17 @@ std::optional<Drive> judge_drive(const Arguments &arguments, const ChainParamete
     if (arguments.speed) throw UsageError(refusal("--speed", *arguments.speed, "a number with --way FILE"));
     if (arguments.passes)
       throw UsageError(refusal("--passes", *arguments.passes, "a number with --way FILE"));
+    if (arguments.turn_round) throw UsageError(refusal("--turn-round", "given", "none without --way FILE"));
     return std::nullopt;
   }
   Drive drive;
+  if (arguments.turn_round) {
+    if (!arguments.contacts)
+      throw UsageError(refusal("--turn-round", "given", "none without --contacts: the drum has no sides"));
+    drive.back = WayBack::turned_round;
+  }
   try {
-    drive.way = read_way(*arguments.way);
+    drive.way = read_way(*arguments.way, arguments.contacts.has_value());
   } catch (const std::invalid_argument &error) {
     throw UsageError(
         fmt::format("{}{}", std::string(error.what()).rfind("way", 0) == 0 ? "--" : "", error.what()));
@@ -110,15 +118,15 @@ std::optional<Drive> judge_drive(const Arguments &arguments, const ChainParamete
   if (drive.way.size() * static_cast<std::size_t>(drive.passes) > most_sections)
     throw UsageError(refusal("--passes", *arguments.passes,
                              fmt::format("passes times rows of --way up to {}", most_sections)));
-  options.way = post::drive(drive.way, drive.speed, drive.passes);
+  options.way = post::drive(drive.way, drive.speed, drive.passes, drive.back);
   return drive;
 }
 
 /// Refuses options that do not go with --contacts.
 void judge_with_contacts(const Arguments &arguments, bool file) {
   const std::string &contacts = *arguments.contacts;
-  if (arguments.way)
-    throw UsageError(refusal("--contacts", contacts, "none with --way: a roller that drives has one"));
+  if (arguments.way && file)
+    throw UsageError(refusal("--contacts", contacts, "a whole number with --way, which has k and D"));
   if (arguments.rtol)
     throw UsageError(refusal("--rtol", *arguments.rtol, "none with --contacts, solved in closed form"));
   if (arguments.tilt &&
@@ -131,7 +139,8 @@ void judge_with_contacts(const Arguments &arguments, bool file) {
 }
 
 /// The drum with two ends, if it is asked for.
-std::optional<Ends> judge_ends(const Arguments &arguments, const AskedChain &chain) {
+std::optional<Ends> judge_ends(const Arguments &arguments, const AskedChain &chain,
+                               const DirectOptions &options) {
   if (!arguments.contacts) {
     if (arguments.tilt) throw UsageError(refusal("--tilt", *arguments.tilt, "a number with --contacts"));
     return std::nullopt;
@@ -160,6 +169,7 @@ std::optional<Ends> judge_ends(const Arguments &arguments, const AskedChain &cha
     if (!(*count >= 1.0 && *count <= most_contacts && *count == std::floor(*count)))
       throw UsageError(refusal("--contacts", contacts, allowed));
     ends.machine.contacts = equal_contacts(static_cast<int>(*count), ends.width, p.k, p.damping());
+    if (!options.way.empty()) ends.machine = over(std::move(ends.machine), options.way.front());
   } else {
     ends.file = contacts;
     if (std::error_code ignored; contacts.empty() || !fs::is_regular_file(*ends.file, ignored))
@@ -192,7 +202,7 @@ Task judge(const Arguments &arguments) {
   options.impact_speed =
       number_option("--impact-speed", arguments.impact_speed, DirectOptions::impact_speed_range);
   std::string fault = options.invalid();
-  task.ends = judge_ends(arguments, chain);
+  task.ends = judge_ends(arguments, chain, options);
   if (fault.empty())
     fault = task.ends ? too_much_work(task.ends->machine, options) : too_much_work(task.parameters, options);
   if (!fault.empty()) throw UsageError("--" + fault);
@@ -230,6 +240,9 @@ std::vector<std::pair<std::string, std::string>> record(const Arguments &argumen
                                  {"way_end", number_text(task.drive->way.back().s)},
                                  {"speed", number_text(task.drive->speed)},
                                  {"passes", fmt::format("{}", task.drive->passes)}});
+    if (task.ends)
+      values.emplace_back("way_back",
+                          task.drive->back == WayBack::turned_round ? "turned round" : "in reverse");
   } else if (!of_file) {
     values.emplace_back("c", number_text(p.damping()));
   }
@@ -329,12 +342,15 @@ void add_exact_command(CLI::App &app, Session &session) {
   text_option(exact, "--cycles", "NUMBER", arguments->cycles, "cycles of the excitation (default 30)");
   text_option(
       exact, "--way", "FILE", arguments->way,
-      fmt::format("the roller drives over the soil of this table, with the columns {}; chain.csv then "
-                  "has place and pass",
-                  way_file::header));
+      fmt::format("the roller drives over the soil of this table, with the columns {}, or with --contacts "
+                  "{}; chain.csv then has place and pass",
+                  way_file::header, way_file::header_of_halves));
   text_option(exact, "--speed", "NUMBER", arguments->speed, "of a roller that drives [m/s]");
   text_option(exact, "--passes", "COUNT", arguments->passes,
               "over the whole way: forth, back and so on (default 1)");
+  exact->add_flag("--turn-round", arguments->turn_round,
+                  "with --way and --contacts: it turns round for its way back, so that the ends of the drum "
+                  "change sides; else it drives in reverse");
   text_option(
       exact, "--contacts", "COUNT|FILE", arguments->contacts,
       fmt::format("drum and frame tilt, too, on 1 to {} equal contacts along the width of the drum that "

@@ -485,6 +485,7 @@ void run_ends_sweep(const Task &task) {
       {{"direction", [](const EndsSample &row) { return row.up ? "up" : "down"; }, {}},
        csv_column(task.sweep->label(), &EndsSample::value)});
   std::vector<EndsPoint> points;
+  points.reserve(samples.size());
   for (const EndsSample &sample : samples)
     points.push_back(sample.point);
   int apart = 0;

@@ -165,7 +165,7 @@ void run(const Arguments &arguments) {
     result.options.window = static_cast<int>(
         std::lround((result.windows.back().end - result.windows.back().begin) / result.record.period()));
   add_places(result.windows, result.record);
-  result.ends = both_ends(result.record, result.options);
+  result.ends = both_ends(result.record, result.options, task.way);
 
   for (const std::string &line : result.record.notes)
     fmt::print("{}\n", line);

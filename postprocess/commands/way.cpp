@@ -20,7 +20,8 @@ namespace {
 
 // The options as given. Numbers stay text until they are checked.
 struct Arguments {
-  std::string mean, variation, correlation, seed = "1", from = "0", to, step = "0.1", D = "0.25", out;
+  std::string mean, variation, correlation, seed = "1", from = "0", to, step = "0.1", D = "0.25", ratio = "1",
+                                            out;
 };
 
 void run(const Arguments &arguments) {
@@ -30,6 +31,7 @@ void run(const Arguments &arguments) {
   soil.correlation = number_option("--correlation", arguments.correlation, {1e-3, 1e6, "m"});
   soil.seed = static_cast<unsigned>(count_option("--seed", arguments.seed, 0, 2'000'000'000));
   soil.D = number_option("--D", arguments.D, {1e-12, 1e6, "", true});
+  soil.ratio = number_option("--ratio", arguments.ratio, {1e-3, 1e3, ""});
   soil.from = number_option("--from", arguments.from, {-1e6, 1e6, "m"});
   soil.to = number_option("--to", arguments.to, {-1e6, 1e6, "m"});
   if (!(soil.to > soil.from))
@@ -60,6 +62,9 @@ void add_way_command(CLI::App &app, Session & /*session*/) {
   text_option(way, "--correlation", "NUMBER", arguments->correlation, "length of correlation [m]")
       ->required();
   text_option(way, "--D", "NUMBER", arguments->D, "damping ratio [-], everywhere the same");
+  text_option(way, "--ratio", "NUMBER", arguments->ratio,
+              "of k below the left half of the drum over that below the right one, everywhere the same; with "
+              "another one than 1 the table has k_left and k_right");
   text_option(way, "--from", "NUMBER", arguments->from, "place of the first row [m]");
   text_option(way, "--to", "NUMBER", arguments->to, "place of the last row [m]")->required();
   text_option(way, "--step", "NUMBER", arguments->step, "distance of rows, between which k is linear [m]");

@@ -14,15 +14,8 @@ TwoEnds EndsFamily::at(const std::vector<std::pair<std::string, double>> &values
   TwoEnds machine = two_ends(parameters, roller);
   machine.contacts = equal_contacts(contacts, drum_width(roller), parameters.k, parameters.damping());
   machine.tilt = small;
-  for (const auto &[name, value] : values) {
-    if (name != ratio_name) continue;
-    for (AxleLink &contact : machine.contacts) {
-      if (contact.y == 0.0) continue;
-      const double share = 2.0 / (1.0 + value) * (contact.y < 0.0 ? value : 1.0);
-      contact.k *= share;
-      contact.c *= share;
-    }
-  }
+  for (const auto &[name, value] : values)
+    if (name == ratio_name) set_ratio(machine.contacts, value);
   return machine;
 }
 

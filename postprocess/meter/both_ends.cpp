@@ -8,8 +8,13 @@
 
 namespace drumlin::post {
 
-std::optional<BothEnds> both_ends(const Record &record, const MeterOptions &options) {
+std::optional<BothEnds> both_ends(const Record &record, const MeterOptions &options, const WayRange &range) {
   if (!record.two_sided()) return std::nullopt;
+  const auto windows = [&](const Record &one) {
+    MeterRecord cycles = meter_cycles(one);
+    if (range.given()) keep_cycles(cycles, one, rows_on(one, range));
+    return meter_windows(cycles, options);
+  };
   BothEnds ends;
   Record one = record;
   one.cycles_file.clear();
@@ -18,7 +23,7 @@ std::optional<BothEnds> both_ends(const Record &record, const MeterOptions &opti
   const std::array<const std::vector<double> *, 2> sensors = {&record.a_left, &record.a_right};
   for (std::size_t end = 0; end < sensors.size(); ++end) {
     one.a_drum = *sensors[end];
-    ends.at_end[end] = meter_windows(meter_cycles(one), options);
+    ends.at_end[end] = windows(one);
   }
   ends.missing = missing_for_halves(record);
   if (!ends.missing.empty()) return ends;
@@ -26,10 +31,12 @@ std::optional<BothEnds> both_ends(const Record &record, const MeterOptions &opti
   const auto halves = half_signals(record);
   one.m2 = one.m3 = 0.0;
   one.a_frame.assign(record.size(), 0.0);
+  const std::array<const std::vector<double> *, 2> forces = {&record.F_left, &record.F_right};
   for (std::size_t half = 0; half < halves.size(); ++half) {
+    one.F_contact = *forces[half]; // of a run: it says when the half is in contact
     one.a_drum = halves[half].acceleration;
     one.F_excitation = halves[half].force;
-    ends.halves[half] = meter_windows(meter_cycles(one), options);
+    ends.halves[half] = windows(one);
   }
   return ends;
 }

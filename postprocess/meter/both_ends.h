@@ -1,6 +1,7 @@
 // What meters at both ends of a drum show, and what both together tell.
 #pragma once
 
+#include "meter/along_way.h"
 #include "meter/values.h"
 
 #include <array>
@@ -19,8 +20,9 @@ struct BothEnds {
   std::string missing; ///< what they need and the record does not give
 };
 
-/// Nothing of a record of one sensor.
-std::optional<BothEnds> both_ends(const Record &record, const MeterOptions &options);
+/// Nothing of a record of one sensor. \param range the part of the way that counts
+std::optional<BothEnds> both_ends(const Record &record, const MeterOptions &options,
+                                  const WayRange &range = {});
 
 /// The last window in lines: \param middle that of a meter in the middle
 std::vector<std::string> answer_lines(const BothEnds &ends, const MeterWindow &middle);

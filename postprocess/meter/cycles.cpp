@@ -157,6 +157,8 @@ public:
               std::vector<MeterCycle> &cycles)
       : record_(record), force_(force), cycles_(cycles) {
     touching_ = computed ? computed_contact * *std::max_element(force.begin(), force.end()) : 0.0;
+    const auto transition = record.parameters.find("transition");
+    pulls_ = transition != record.parameters.end() && transition->second == "A";
     for (MeterCycle &cycle : cycles_) {
       cycle.contact_share = 0.0;
       cycle.peak_force = 0.0;
@@ -169,7 +171,7 @@ public:
   }
 
 private:
-  bool touches(std::size_t row) const { return force_[row] > touching_; }
+  bool touches(std::size_t row) const { return (pulls_ ? std::abs(force_[row]) : force_[row]) > touching_; }
 
   void add(const Part &part) {
     MeterCycle &cycle = cycles_[part.cycle];
@@ -212,6 +214,7 @@ private:
   const std::vector<double> &force_;
   std::vector<MeterCycle> &cycles_;
   double touching_ = 0.0;
+  bool pulls_ = false; // a run under A: in contact the force may be a tension, without contact it is 0
 };
 
 /// A table of cycles without its first row, cycle 0, which has the energies at the start.

@@ -53,7 +53,8 @@ std::vector<double> soil_force(const Record &record);
 /// - Harmonics: from the sums of `record.cycles_file` if it has them; else from v_drum, else from a_drum.
 /// Errors
 ///   (std::runtime_error) if the record has none of these, or fewer than four cycles.
-/// - Contact: force above zero; of a computed force, above 2 % of its largest value.
+/// - Contact: force above zero; of a computed force, above 2 % of its largest value. Of a run under
+/// transition A, whose contact may pull, the same of the size of the force.
 /// - Energy: of a chain from the energies of `record.cycles_file`, else by the trapezoidal rule from force
 /// and v_drum.
 /// - Deflection: the drum's lowest position below that at which the contact of that cycle began. In chain.csv

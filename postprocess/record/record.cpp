@@ -33,12 +33,13 @@ constexpr double pi = 3.14159265358979323846;
 /// The signals that are read: all columns from x_drum, the second, to F_excitation, and the sensors at both
 /// ends of the drum.
 constexpr auto record_signals = [] {
-  constexpr std::size_t of_middle = 8, a_left = 16;
+  constexpr std::size_t of_middle = 8;
   std::array<HistoryColumn, of_middle + 2> signals{};
-  for (std::size_t i = 0; i < of_middle; ++i)
-    signals[i] = history_columns[i + 1];
-  signals[of_middle] = history_columns[a_left];
-  signals[of_middle + 1] = history_columns[a_left + 1];
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < history_columns.size(); ++i)
+    if (const auto values = history_columns[i].values;
+        i <= of_middle || values == &ChainHistory::a_left || values == &ChainHistory::a_right)
+      signals[count++] = history_columns[i];
   return signals;
 }();
 
@@ -268,10 +269,16 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
     headers.push_back(find(signal.name, reading.record.*signal.values, !any_signal_named));
   const std::size_t of_motion = taken.size();
   find(pulse_name, reading.record.pulse, false);
-  if (is_of_run(table.file()) && table.find("s") && table.find("pass"))
-    for (const auto &[name, into] :
-         {std::pair{"s", &reading.record.s}, std::pair{"pass", &reading.record.pass}})
-      taken.push_back({into, *table.find(name), 1.0});
+  // Of runs, what no sensor measures: place and pass, and the forces below both ends of a drum.
+  const std::array<std::pair<const char *, std::vector<double> *>, 4> of_run = {
+      {{"s", &reading.record.s},
+       {"pass", &reading.record.pass},
+       {"F_left", &reading.record.F_left},
+       {"F_right", &reading.record.F_right}}};
+  for (std::size_t i = 0; i < of_run.size(); i += 2) // in pairs
+    if (is_of_run(table.file()) && table.find(of_run[i].first) && table.find(of_run[i + 1].first))
+      for (const auto &[name, into] : {of_run[i], of_run[i + 1]})
+        taken.push_back({into, *table.find(name), 1.0});
   if (of_motion == of_time) {
     std::vector<std::string> names;
     names.reserve(table.columns().size());
@@ -436,6 +443,8 @@ void take_piece(Reading &reading, const RecordOptions &options) {
   cut(record.time);
   cut(record.s);
   cut(record.pass);
+  cut(record.F_left);
+  cut(record.F_right);
   cut(record.pulse);
   for (const HistoryColumn &signal : record_signals)
     cut(record.*signal.values);
@@ -756,6 +765,8 @@ void undo_delays(Record &record, const std::map<std::string, double> &delays) {
   cut(record.time);
   cut(record.s);
   cut(record.pass);
+  cut(record.F_left);
+  cut(record.F_right);
   cut(record.pulse);
   for (const HistoryColumn &signal : record_signals)
     cut(record.*signal.values);

@@ -32,8 +32,6 @@ struct ChainHistory {
   std::vector<double> F_contact;    ///< of the soil on the drum, positive in compression [N]
   std::vector<double> F_excitation; ///< F_e, positive where it pushes the drum down [N]
   std::vector<double> F_bond;       ///< c23 (v_frame - v_drum) + k23 (x_frame - x_drum) [N]
-  std::vector<double> s;            ///< place along the way of a roller that drives [m]
-  std::vector<double> pass;         ///< and its pass, counted from 1
   // Of a drum with two ends; x_drum, F_contact and so on are those of its middle and of all contacts.
   std::vector<double> theta_drum; ///< tilt about the way of travel, positive if the right end is higher [rad]
   std::vector<double> omega_drum; ///< its rate [rad/s]
@@ -43,6 +41,8 @@ struct ChainHistory {
   std::vector<double> a_right;     ///< and at the right one [m/s2]
   std::vector<double> F_left;      ///< of the contacts left of the middle, and half of one in the middle [N]
   std::vector<double> F_right;     ///< [N]
+  std::vector<double> s;           ///< place along the way of a roller that drives [m]
+  std::vector<double> pass;        ///< and its pass, counted from 1
 
   /// Number of rows.
   std::size_t size() const { return time.size(); }
@@ -75,8 +75,6 @@ constexpr std::array<HistoryColumn, 20> history_columns = {
      {"F_contact", &ChainHistory::F_contact, force_column},
      {"F_excitation", &ChainHistory::F_excitation, force_column},
      {"F_bond", &ChainHistory::F_bond, force_column, ColumnGroup::frame},
-     {"s", &ChainHistory::s, way_column, ColumnGroup::way},
-     {"pass", &ChainHistory::pass, way_column, ColumnGroup::way},
      {"theta_drum", &ChainHistory::theta_drum, tilt_column, ColumnGroup::ends},
      {"omega_drum", &ChainHistory::omega_drum, tilt_column, ColumnGroup::ends},
      {"theta_frame", &ChainHistory::theta_frame, tilt_column, ColumnGroup::ends},
@@ -84,7 +82,9 @@ constexpr std::array<HistoryColumn, 20> history_columns = {
      {"a_left", &ChainHistory::a_left, 2, ColumnGroup::ends},
      {"a_right", &ChainHistory::a_right, 2, ColumnGroup::ends},
      {"F_left", &ChainHistory::F_left, force_column, ColumnGroup::ends},
-     {"F_right", &ChainHistory::F_right, force_column, ColumnGroup::ends}}};
+     {"F_right", &ChainHistory::F_right, force_column, ColumnGroup::ends},
+     {"s", &ChainHistory::s, way_column, ColumnGroup::way},
+     {"pass", &ChainHistory::pass, way_column, ColumnGroup::way}}};
 
 /// A contact made or broken: one row of events.csv.
 struct ContactEvent {

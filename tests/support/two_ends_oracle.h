@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -18,12 +19,31 @@ using post::AxleLink, post::ChainParameters, post::Transition, post::TwoEnds, po
 /// One motion of it.
 class TwoEndsOracle {
 public:
-  TwoEndsOracle(const TwoEnds &machine, const TwoEndsState &start)
-      : m_(machine), phase_(machine.contacts.size(), free), y_(start.data(), start.data() + 8),
+  /// k and c of a contact at a time.
+  using Soil = std::function<AxleLink(std::size_t contact, double time)>;
+
+  /// \param soil where the contacts change with time, smoothly until meet() is called
+  TwoEndsOracle(const TwoEnds &machine, const TwoEndsState &start, Soil soil = {})
+      : m_(machine), soil_(std::move(soil)), phase_(machine.contacts.size(), free),
+        y_(start.data(), start.data() + 8),
         ode_([this](double t, const oracle::State &y, oracle::State &rates) { rate(t, y, rates); }, 0.0, y_,
              scale(machine)) {
     for (std::size_t j = 0; j < phase_.size(); ++j)
-      if (gap(j, y_) < 0.0) phase_[j] = law(j, y_) > 0.0 || !b() ? acting : silent;
+      if (gap(j, y_) < 0.0) phase_[j] = law(j, 0.0, y_) > 0.0 || !b() ? acting : silent;
+  }
+
+  /// From the present time on the contacts are those of another soil.
+  void meet(Soil soil) {
+    soil_ = std::move(soil);
+    const oracle::State y = ode_.state();
+    for (std::size_t j = 0; j < phase_.size(); ++j) {
+      if (!b() || phase_[j] == free || gap(j, y) >= 0.0) continue;
+      const Phase next = law(j, ode_.time(), y) > 0.0 ? acting : silent;
+      makes_ += next == acting && phase_[j] == silent;
+      breaks_ += next == silent && phase_[j] == acting;
+      phase_[j] = next;
+    }
+    ode_.restart(y);
   }
 
   /// State at a time.
@@ -39,7 +59,7 @@ public:
           which.emplace_back(j, false);
         }
         if (by_law) {
-          events.emplace_back([this, j](double, const oracle::State &y) { return law(j, y); });
+          events.emplace_back([this, j](double t, const oracle::State &y) { return law(j, t, y); });
           which.emplace_back(j, true);
         }
       }
@@ -55,6 +75,7 @@ public:
     rate(ode_.time(), ode_.state(), rates);
     return rates;
   }
+  int makes() const { return makes_; }
   int breaks() const { return breaks_; }
   bool left_lost() const { return lost_[0]; }
   bool right_lost() const { return lost_[1]; }
@@ -71,10 +92,12 @@ private:
     return scale;
   }
   bool b() const { return m_.chain.transition == Transition::B; }
+  bool damped(std::size_t j) const { return (soil_ ? soil_(j, ode_.time()) : m_.contacts[j]).c > 0.0; }
   double gap(std::size_t j, const oracle::State &y) const { return y[0] + m_.contacts[j].y * y[2]; }
   double gap_rate(std::size_t j, const oracle::State &y) const { return y[4] + m_.contacts[j].y * y[6]; }
-  double law(std::size_t j, const oracle::State &y) const {
-    return -m_.contacts[j].k * gap(j, y) - m_.contacts[j].c * gap_rate(j, y);
+  double law(std::size_t j, double t, const oracle::State &y) const {
+    const AxleLink link = soil_ ? soil_(j, t) : m_.contacts[j];
+    return -link.k * gap(j, y) - link.c * gap_rate(j, y);
   }
   void rate(double t, const oracle::State &y, oracle::State &rates) const {
     const ChainParameters &p = m_.chain;
@@ -82,8 +105,8 @@ private:
     double drum = -p.m2 * p.g - push, tilt = -m_.exciter * push, frame = -p.m3 * p.g, frame_tilt = 0.0;
     for (std::size_t j = 0; j < m_.contacts.size(); ++j)
       if (phase_[j] == acting) {
-        drum += law(j, y);
-        tilt += m_.contacts[j].y * law(j, y);
+        drum += law(j, t, y);
+        tilt += m_.contacts[j].y * law(j, t, y);
       }
     for (const AxleLink &bond : m_.bonds) {
       const double force =
@@ -104,18 +127,22 @@ private:
   // way out of the phase counts.
   void change(std::size_t j, bool by_law) {
     const oracle::State y = ode_.state();
-    oracle::State rates(8);
-    rate(ode_.time(), y, rates);
+    const double t = ode_.time(), h = 1e-8 / m_.chain.omega; // short against all motion
+    oracle::State rates(8), soon = y;
+    rate(t, y, rates);
+    for (std::size_t i = 0; i < soon.size(); ++i)
+      soon[i] += h * rates[i];
     const double gap_speed = gap_rate(j, y);
-    const double law_speed = -m_.contacts[j].k * gap_speed - m_.contacts[j].c * gap_rate(j, rates);
+    const double law_speed = law(j, t + h, soon) - law(j, t, y);
     Phase &phase = phase_[j];
     const Phase before = phase;
     if (!by_law && (phase == free ? gap_speed < 0.0 : gap_speed > 0.0))
       phase = phase == free ? acting : free;
     else if (by_law && phase == acting && law_speed < 0.0)
-      phase = gap(j, y) < 0.0 && m_.contacts[j].c > 0.0 ? silent : free;
+      phase = gap(j, y) < 0.0 && damped(j) ? silent : free;
     else if (by_law && phase == silent && law_speed > 0.0)
       phase = acting;
+    makes_ += phase == acting && before != acting;
     if (before == acting && phase != acting) {
       ++breaks_;
       lost_[m_.contacts[j].y > 0.0] = true;
@@ -124,10 +151,11 @@ private:
   }
 
   const TwoEnds &m_;
+  Soil soil_;
   std::vector<Phase> phase_;
   oracle::State y_;
   oracle::Ode ode_;
-  int breaks_ = 0;
+  int makes_ = 0, breaks_ = 0;
   std::array<bool, 2> lost_ = {false, false};
 };
 

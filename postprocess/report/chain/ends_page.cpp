@@ -3,9 +3,11 @@
 #include "pages/drawing.h"
 #include "pages/figure_data.h"
 #include "pages/html.h"
+#include "record/chain_record.h"
 #include "record/record.h"
 #include "report/chain/page.h"
 #include "report/content.h"
+#include "support/csv.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,6 +108,7 @@ int repeats_after(const Run &run, double y) {
 void take_meters(EndsResult &result) {
   try {
     const Record record = read_record(result.run.folder);
+    result.machine = record.ends;
     MeterOptions options;
     const MeterRecord cycles = meter_cycles(record);
     options.window = std::min(options.window, static_cast<int>(cycles.cycles.size() / 2 * 2));
@@ -187,6 +190,125 @@ PageFigure figure_of(const EndsResult &result, std::size_t number) {
       table.text(),
       (result.half_width ? 2.0 : 1.0) + (std::isfinite(error) ? error / (1.0 + error) : 0.0)};
   return figure;
+}
+
+// ---- error of meters at one end over the ratio of stiffness ----
+
+/// The soil below the whole drum: k [N/m] and c [N s/m].
+struct WholeSoil {
+  double k = 0.0, c = 0.0;
+};
+
+/// That of the run: as it was given for equal contacts, else as measured in unbroken contact.
+std::optional<WholeSoil> soil_of(const EndsResult &result) {
+  const std::optional<double> k = result.run.number("k"), c = result.run.number("c");
+  if (k && c) return WholeSoil{*k, *c};
+  if (!result.ends || !result.ends->missing.empty()) return std::nullopt;
+  WholeSoil soil;
+  for (const std::vector<MeterWindow> &half : result.ends->halves) {
+    const MeterWindow &last = half.back();
+    if (last.mode != OperatingMode::continuous_contact || !last.k_1 || !last.c_1) return std::nullopt;
+    soil.k += *last.k_1;
+    soil.c += *last.c_1;
+  }
+  return soil;
+}
+
+/// What meters at both ends show on halves of a ratio.
+struct OneSidedError {
+  double ratio = 1.0;         ///< of k below the left half over that below the right one
+  std::array<double, 2> ends; ///< k_1 at that end over k_1 in the middle, less 1 [-]
+  bool lost = false;          ///< whether a contact was lost
+};
+
+/// Contacts of these computations: more do not change what meters show.
+constexpr int most_shown_contacts = 8;
+
+/// Solved from rest until it has settled.
+DirectOptions until_settled() {
+  DirectOptions options;
+  options.cycles = 200;
+  options.samples_per_cycle = 100;
+  return options;
+}
+
+OneSidedError one_sided_error(const TwoEnds &machine, double ratio) {
+  const DirectOptions options = until_settled();
+  const DirectResult solved = solve_two_ends(machine, options);
+  const Record record = chain_record(machine.chain, solved.history);
+  const MeterOptions meter;
+  OneSidedError error;
+  error.ratio = ratio;
+  const double in_middle = meter_windows(meter_cycles(record), meter).back().k_1.value_or(nan);
+  const std::optional<BothEnds> ends = both_ends(record, meter);
+  for (std::size_t end = 0; end < error.ends.size(); ++end)
+    error.ends[end] = ends->at_end[end].back().k_1.value_or(nan) / in_middle - 1.0;
+  const double begin = solved.history.time.back() - meter.window * machine.chain.period();
+  error.lost = std::any_of(solved.events.begin(), solved.events.end(),
+                           [begin](const ContactEvent &event) { return event.time >= begin; });
+  return error;
+}
+
+/// Adds the figure of the run, or why there is none.
+void add_error_figure(const EndsResult &result, std::size_t number, FigurePlan &plan) {
+  const std::string label = fmt::format("Fig. {}", number), name = "ends_error";
+  const std::optional<WholeSoil> soil = soil_of(result);
+  if (!result.machine || !result.half_width || !soil) {
+    plan.absent.push_back({section, label,
+                           fmt::format("{} does not say width, inertia and bonds of the machine and the "
+                                       "stiffness of the whole soil",
+                                       result.run.name)});
+    return;
+  }
+  const auto refuse = [&](const std::string &fault) {
+    plan.absent.push_back({section, label, fmt::format("{} cannot be solved: {}", result.run.name, fault)});
+  };
+  TwoEnds machine = *result.machine;
+  machine.chain = result.run.chain;
+  const double width = 2.0 * *result.half_width;
+  const auto count = any_number_from_text(result.run.text("contacts"));
+  const int contacts = static_cast<int>(std::clamp(count.value_or(2.0), 2.0, double(most_shown_contacts)));
+  const auto machine_on = [&](double ratio) {
+    TwoEnds on_halves = machine;
+    on_halves.contacts = equal_contacts(contacts, width, soil->k, soil->c);
+    set_ratio(on_halves.contacts, ratio);
+    return on_halves;
+  };
+  constexpr double largest_ratio = 4.0;
+  const TwoEnds hardest = machine_on(largest_ratio);
+  if (const std::string fault = hardest.invalid(); !fault.empty()) return refuse(fault);
+  if (const std::string fault = too_much_work(hardest, until_settled()); !fault.empty()) return refuse(fault);
+  CurveTable table("ratio (-),error (%)");
+  constexpr std::array<const char *, 2> ends = {"left end", "right end"};
+  constexpr int steps = 8; // to either side
+  for (int step = -steps; step <= steps; ++step) {
+    const double ratio = std::pow(largest_ratio, static_cast<double>(step) / steps);
+    const OneSidedError error = one_sided_error(machine_on(ratio), ratio);
+    for (std::size_t end = 0; end < ends.size(); ++end) {
+      table.row(ends[end], {error.ratio, 100.0 * error.ends[end]});
+      if (error.lost) table.row("contact is lost", {error.ratio, 100.0 * error.ends[end]});
+    }
+  }
+  Panel panel{"Error of a meter at one end",
+              "stiffness of the left half over that of the right (-)",
+              "k_1 less that in the middle (%)",
+              {}};
+  panel.log_x = panel.plain_numbers = panel.tight_x = true;
+  panel.add(curve(name, ends[0], "2", "3", CurveStyle::line_1), "sensor at the left end");
+  panel.add(curve(name, ends[1], "2", "3", CurveStyle::line_2), "at the right end");
+  panel.add(curve(name, "contact is lost", "2", "3", CurveStyle::mark_1), "contact is lost: apparent values");
+  plan.figures.push_back(
+      {section,
+       label,
+       fmt::format(
+           "Machine of run {} on halves that share k = {:.4g} MN/m and c = {:.4g} kN s/m, {} contacts, "
+           "transition {}: k_1 of a meter at each end over that of one in the middle, less 1, from the "
+           "last {} of 200 cycles of the exact solution. Dots: a contact is lost in these cycles. The "
+           "way back over the same soil has the inverse ratio if the roller turns round.",
+           result.run.name, 1e-6 * soil->k, 1e-3 * soil->c, contacts,
+           transition_name(result.run.transition()), MeterOptions().window),
+       {name, "Run " + result.run.name, {panel}, 1},
+       table.text()});
 }
 
 std::string cell(double value, const char *format) {
@@ -338,6 +460,7 @@ FigurePlan plan_ends_figures(const std::vector<EndsResult> &results) {
     else
       plan.absent.push_back({section, fmt::format("Fig. {}", i + 1),
                              fmt::format("{} ends before its first complete cycle", results[i].run.name)});
+  if (const EndsResult *told = told_run(results)) add_error_figure(*told, results.size() + 1, plan);
   return plan;
 }
 

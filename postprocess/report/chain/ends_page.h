@@ -2,6 +2,7 @@
 // index.html.
 #pragma once
 
+#include "chain/two_ends.h"
 #include "meter/both_ends.h"
 #include "pages/figure.h"
 #include "pages/table.h"
@@ -30,7 +31,8 @@ struct EndsResult {
   std::array<double, 2> no_contact;  ///< share of time without force: left half, right half [-]
   std::optional<MeterWindow> middle; ///< of a meter in the middle
   std::optional<BothEnds> ends;
-  std::string no_meter; ///< why there are no meter values
+  std::string no_meter;             ///< why there are no meter values
+  std::optional<TwoEnds> machine{}; ///< how it tilts; the k and c of its contacts have no meaning
 
   /// k_1 of a meter at the left end, in the middle and at the right end [N/m].
   std::array<double, 3> stiffness() const;
@@ -43,7 +45,8 @@ struct EndsResult {
 /// Measures a run of kind ends.
 EndsResult analyse_ends(Run run);
 
-/// The motion of each run, numbered from 1.
+/// The motion of each run, numbered from 1, and over the ratio of stiffness below both halves the error of a
+/// meter at one end, of the machine and the soil of the run of which the answer tells.
 FigurePlan plan_ends_figures(const std::vector<EndsResult> &results);
 
 /// The numbers, a row for each run: of its motion, and what meters show of it.

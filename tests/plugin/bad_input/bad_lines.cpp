@@ -176,6 +176,12 @@ BadGroup contact_way() {
        on_two_ranks},
       {"another file", "@ file lines travel travel between soil drum",
        "header in line 1 of 'lines' is ... s (m),k (N/m),D (-)"},
+      {"a soft side",
+       "print \"s (m),k_left (N/m),k_right (N/m),D (-)\" file out/side.csv screen no\n"
+       "print \"0,1e7,2e7,0.2\" append out/side.csv screen no\n" +
+           travel + "@ file out/side.csv travel travel between soil drum",
+       "k_left in line 2 of 'out/side.csv' is '1e+07' ... k_right, 2e+07: a drum on one contact has no sides",
+       on_two_ranks},
       {"unknown roller", file + "@ file out/way.csv travel gravity between soil drum",
        "keyword travel is 'gravity' ... the ID of a fix drum/travel", on_two_ranks},
       {"a way too short",

@@ -34,11 +34,10 @@ DirectOptions driven(const ChainParameters &p, const Way &way, double speed, int
 std::pair<double, double> soil_at(const Way &way, double s, bool forth) {
   for (std::size_t i = 0; i + 1 < way.size(); ++i) {
     const std::size_t n = forth ? i : way.size() - 2 - i;
-    const auto &[s0, k0, D0] = way[n];
-    const auto &[s1, k1, D1] = way[n + 1];
-    if (s1 == s0 || (forth ? s >= s1 : s <= s0)) continue;
-    const double share = (s - s0) / (s1 - s0);
-    return {k0 + share * (k1 - k0), D0 + share * (D1 - D0)};
+    const drumlin::WayRow &a = way[n], &b = way[n + 1];
+    if (b.s == a.s || (forth ? s >= b.s : s <= a.s)) continue;
+    const double share = (s - a.s) / (b.s - a.s);
+    return {a.k + share * (b.k - a.k), a.D + share * (b.D - a.D)};
   }
   return forth ? std::pair{way.back().k, way.back().D} : std::pair{way.front().k, way.front().D};
 }

@@ -4,6 +4,7 @@
 #include "chain/two_ends.h"
 #include "files/roller.h"
 #include "tests/support/chain_record.h"
+#include "tests/support/two_ends_energy.h"
 #include "tests/support/two_ends_oracle.h"
 
 #include <Eigen/Dense>
@@ -235,56 +236,6 @@ TEST(TwoEnds, RandomMachinesAndSoilsFollowCvode) {
 
 // ---- energy ----
 
-// Work of the exciter, energy and dissipation, by Gauss's formula over each piece of the motion.
-class Energy : public TwoEndsObserver {
-public:
-  explicit Energy(const TwoEnds &machine) : m_(machine) {}
-  double work = 0.0, dissipated = 0.0, turned = 0.0;
-
-  double stored(const TwoEndsState &y) const {
-    const ChainParameters &p = m_.chain;
-    double sum = 0.5 * (p.m2 * y[4] * y[4] + p.m3 * y[5] * y[5] + m_.drum_inertia * y[6] * y[6] +
-                        m_.frame_inertia * y[7] * y[7]) +
-                 p.g * (p.m2 * y[0] + p.m3 * y[1]);
-    for (const AxleLink &bond : m_.bonds)
-      sum += 0.5 * bond.k * std::pow(y[1] - y[0] + bond.y * (y[3] - y[2]), 2);
-    for (const AxleLink &contact : m_.contacts)
-      sum += 0.5 * contact.k * std::pow(std::min(0.0, y[0] + contact.y * y[2]), 2);
-    return sum;
-  }
-  void piece(const ContactSet::Piece &piece, const ContactSet & /*set*/, std::uint32_t acting) override {
-    constexpr std::array<double, 5> at = {0.0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
-                                          -0.9061798459386640};
-    constexpr std::array<double, 5> weight = {0.5688888888888889, 0.4786286704993665, 0.4786286704993665,
-                                              0.2369268850561891, 0.2369268850561891};
-    constexpr int parts = 4;
-    for (int part = 0; part < parts; ++part)
-      for (std::size_t i = 0; i < at.size(); ++i) {
-        const double s = piece.end * (part + 0.5 * (1.0 + at[i])) / parts;
-        const double duration = 0.5 * weight[i] * piece.end * piece.length / parts;
-        const TwoEndsState y = piece.state(s);
-        const ChainParameters &p = m_.chain;
-        work -= duration * p.Fw * std::sin(p.omega * (piece.begin + s * piece.length)) *
-                (y[4] + m_.exciter * y[6]);
-        for (const AxleLink &bond : m_.bonds)
-          dissipated += duration * bond.c * std::pow(y[5] - y[4] + bond.y * (y[7] - y[6]), 2);
-        for (std::size_t j = 0; j < m_.contacts.size(); ++j) {
-          const AxleLink &contact = m_.contacts[j];
-          const double rate = y[4] + contact.y * y[6], z = y[0] + contact.y * y[2];
-          if (((acting >> j) & 1U) != 0)
-            dissipated += duration * contact.c * rate * rate;
-          else if (z < 0.0) // an overlap without force: its spring is relaxed by the dashpot
-            dissipated -= duration * contact.k * z * rate;
-        }
-        turned += duration * std::fabs(p.Fw * (y[4] + m_.exciter * y[6]));
-      }
-  }
-  void change(const ContactChange & /*change*/) override {}
-
-private:
-  const TwoEnds &m_;
-};
-
 TEST(TwoEnds, EnergyIsBalanced) {
   for (const Transition transition : {Transition::A, Transition::B})
     for (const int contacts : {2, 5}) {
@@ -298,7 +249,7 @@ TEST(TwoEnds, EnergyIsBalanced) {
       machine.contacts.front().k *= 1.7;
       const TwoEndsSolver solver(machine);
       TwoEndsMotion motion = solver.start();
-      Energy energy(machine);
+      drumlin::test::TwoEndsEnergy energy(machine);
       const double before = energy.stored(motion.state);
       for (int cycle = 0; cycle < 50; ++cycle)
         solver.finish_cycle(motion, &energy);

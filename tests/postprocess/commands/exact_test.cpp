@@ -207,6 +207,58 @@ TEST_F(ExactCommand, WritesARandomWayAndDrivesOverIt) {
   EXPECT_EQ(post::read_chain(folder_ / "o/chain.csv").s.front(), 2.0);
 }
 
+// A soft left side from 4 m on, forth and back: the force of each half is k of its side of that place. In
+// reverse the left end stays on the soft side; a roller that turns round has its right end there.
+TEST_F(ExactCommand, DrivesOverASoftSide) {
+  std::ofstream(folder_ / "w.csv") << "s (m),k_left (N/m),k_right (N/m),D (-)\n0,7e6,7e6,0\n4,7e6,7e6,0\n"
+                                      "4,4e6,8e6,0\n6,5e6,9e6,0\n";
+  for (const bool turned : {false, true}) {
+    const Outcome outcome =
+        run("exact --roller " + roller_file("Axas2020") +
+            " --way w.csv --speed 1 --passes 2 --contacts 2 --out o" + (turned ? " --turn-round" : ""));
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.find("multiplier"), std::string::npos);
+    EXPECT_EQ(get(folder_ / "o/chain.csv").substr(0, get(folder_ / "o/chain.csv").find('\n')),
+              "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond,theta_drum,"
+              "omega_drum,theta_frame,omega_frame,a_left,a_right,F_left,F_right,s,pass");
+    const post::ChainHistory h = post::read_chain(folder_ / "o/chain.csv");
+    const double b = 2.13 / std::sqrt(12.0);
+    for (std::size_t i = 0; i < h.size(); i += 53) {
+      const double s = h.s[i], k_left = s < 4.0 ? 7e6 : 4e6 + 5e5 * (s - 4.0),
+                   k_right = s < 4.0 ? 7e6 : 8e6 + 5e5 * (s - 4.0);
+      const bool swapped = turned && h.pass[i] == 2.0;
+      EXPECT_NEAR(h.F_left[i],
+                  std::max(0.0, -(swapped ? k_right : k_left) * (h.x_drum[i] - b * h.theta_drum[i])), 1.0)
+          << i;
+      EXPECT_NEAR(h.F_right[i],
+                  std::max(0.0, -(swapped ? k_left : k_right) * (h.x_drum[i] + b * h.theta_drum[i])), 1.0)
+          << i;
+    }
+    const std::map<std::string, std::string> record = post::read_parameters(folder_ / "o/parameters.csv");
+    EXPECT_EQ(record.at("way_back"), turned ? "turned round" : "in reverse");
+    EXPECT_EQ(record.at("contacts"), "2");
+    EXPECT_EQ(record.count("k") + record.count("D") + record.count("c"), 0U);
+  }
+}
+
+TEST_F(ExactCommand, WritesAWayWithASoftSide) {
+  const std::string options = "--mean 5e7 --variation 0.3 --correlation 1.5 --to 5 --step 0.25 ";
+  ASSERT_EQ(run("way " + options + "--out w.csv").status, 0);
+  ASSERT_EQ(run("way " + options + "--ratio 3 --out halves.csv").status, 0);
+  const post::Table whole = post::read_table(folder_ / "w.csv"),
+                    halves = post::read_table(folder_ / "halves.csv");
+  const std::vector<double> k = whole.numbers("k (N/m)"), left = halves.numbers("k_left (N/m)"),
+                            right = halves.numbers("k_right (N/m)");
+  ASSERT_EQ(left.size(), k.size());
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    EXPECT_NEAR(left[i] / right[i], 3.0, 1e-12);
+    EXPECT_NEAR(left[i] + right[i], k[i], 1e-12 * k[i]);
+  }
+  EXPECT_EQ(run("way " + options + "--ratio 0 --out w.csv").err,
+            "ERROR: drumlin way: --ratio is '0'; allowed: a number from 0.001 to 1000\n");
+  ASSERT_EQ(run("exact --way halves.csv --speed 5 --contacts 3 --out o").status, 0);
+}
+
 TEST_F(ExactCommand, RefusesAWayThatCannotBeDrivenOver) {
   const std::string head = "s (m),k (N/m),D (-)\n";
   const auto refuse = [&](const std::string &text, const std::string &options, const std::string &line) {
@@ -218,7 +270,9 @@ TEST_F(ExactCommand, RefusesAWayThatCannotBeDrivenOver) {
   };
   const std::string good = head + "0,1e7,0.2\n2,2e7,0.2\n";
   const std::string fast = "--speed 1";
-  refuse("place,k\n1,2\n", fast, "header in line 1 of 'w.csv' is 'place,k'; allowed: s (m),k (N/m),D (-)");
+  refuse("place,k\n1,2\n", fast,
+         "header in line 1 of 'w.csv' is 'place,k'; allowed: s (m),k (N/m),D (-) or s "
+         "(m),k_left (N/m),k_right (N/m),D (-)");
   refuse(head + "0,1e7,0.2\n", fast, "--way of 'w.csv' has 1 rows; allowed: two or more, of different s");
   refuse(head + "0,1e7,0.2\n0,2e7,0.2\n", fast,
          "--way of 'w.csv' has 2 rows; allowed: two or more, of different s");
@@ -233,6 +287,17 @@ TEST_F(ExactCommand, RefusesAWayThatCannotBeDrivenOver) {
   refuse(head + "0,1e7\n2,2e7,0.2\n", fast, "D in line 2 of 'w.csv' is ''; allowed: a number from 0 to 1e6");
   refuse(head + "0,1e7,0.2,9\n", fast,
          "row in line 2 of 'w.csv' is '0,1e7,0.2,9'; allowed: three numbers, s (m),k (N/m),D (-)");
+  const std::string halves = "s (m),k_left (N/m),k_right (N/m),D (-)\n", two = fast + " --contacts 2";
+  refuse(
+      halves + "0,1e7,1e7,0.2\n1,1e7,2e7,0.2\n", fast,
+      "k_left in line 3 of 'w.csv' is '1e+07'; allowed: k_right, 2e+07: a drum on one contact has no sides");
+  refuse(halves + "0,1e7,0,0.2\n1,1e7,2e7,0.2\n", two,
+         "k_right in line 2 of 'w.csv' is '0'; allowed: a number from 1e-6 to 1e15 [N/m]");
+  refuse(halves + "0,1e7,0.2\n1,1e7,2e7,0.2\n", two,
+         "D in line 2 of 'w.csv' is ''; allowed: a number from 0 to 1e6");
+  refuse(halves + "0,1e7,1e7,0.2,1\n", two,
+         "row in line 2 of 'w.csv' is '0,1e7,1e7,0.2,1'; allowed: four numbers, s (m),k_left (N/m),k_right "
+         "(N/m),D (-)");
   refuse(good, "", "--speed is missing; allowed: a number [m/s], with --way");
   refuse(good, "--speed 0", "--speed is '0'; allowed: a number from 1e-06 to 100 [m/s]");
   refuse(good, "--speed 1e-3",
@@ -334,8 +399,13 @@ TEST_F(ExactCommand, RefusesContactsThatTheDrumCannotHave) {
            {good, "--contacts nothing", "--contacts is 'nothing" + count},
            {good, "--contacts 2 --rtol 1e-9",
             "--rtol is '1e-9'; allowed: none with --contacts, solved in closed form"},
-           {good, "--contacts 2 --speed 1 --way " + way,
-            "--contacts is '2'; allowed: none with --way: a roller that drives has one"},
+           {good, "--contacts w.csv --speed 1 --way " + way,
+            "--contacts is 'w.csv'; allowed: a whole number with --way, which has k and D"},
+           {good, "--turn-round", "--turn-round is 'given'; allowed: none without --way FILE"},
+           {good, "--turn-round --speed 1 --way " + way,
+            "--turn-round is 'given'; allowed: none without --contacts: the drum has no sides"},
+           {good, "--contacts 2 --speed 1 --D 0.1 --way " + way,
+            "--D is '0.1'; allowed: none with --way, which has it of each place"},
            {good, "--contacts w.csv --k 1e7",
             "--k is '1e7'; allowed: none with a file of --contacts, which has k and c of each"},
            {good, "--tilt 0.01", "--tilt is '0.01'; allowed: a number with --contacts"},

@@ -129,6 +129,28 @@ TEST_F(MeterCommand, AtOneEndOfADrumThatTiltsShowsTheSoilOfThatEnd) {
   EXPECT_NEAR(last("c_1_right_half [N s/m]"), 0.4 * c, 1e-5 * c);
 }
 
+// Under A a contact may pull: on soil so damped that it does in each cycle contact is unbroken all the same,
+// and the stiffness of each half is that of the soil. Where an end lifts off it is apparent.
+TEST_F(MeterCommand, AContactThatPullsUnderAIsUnbroken) {
+  const std::string roller = DRUMLIN_SOURCE_DIR "/inputs/rollers/Axas2020";
+  for (const bool lifts : {false, true}) {
+    well(run_program({DRUMLIN_TOOLS, "exact", "--roller", roller, "--contacts", "4", "--transition", "A",
+                      "--k", lifts ? "45e6" : "20e6", "--D", lifts ? "0.2" : "0.5", "--cycles", "300",
+                      "--out", "run"},
+                     {}, folder_));
+    const ChainHistory h = read_chain(folder_ / "run/chain.csv");
+    EXPECT_LT(*std::min_element(h.F_left.end() - 200, h.F_left.end()), lifts ? 0.0 : -1.5e4);
+    EXPECT_EQ(std::count(h.F_left.end() - 200, h.F_left.end(), 0.0) > 0, lifts);
+    const Outcome both = well(meter({"run"}));
+    EXPECT_EQ(static_cast<bool>(printed(both, "apparent")), lifts);
+    const Table table = read_table(folder_ / "results/meter/meter.csv");
+    EXPECT_EQ(table.text("mode").back() == "continuous contact", !lifts);
+    if (!lifts) {
+      EXPECT_TRUE(printed(both, "10 MN/m below the left half, 10 MN/m below the right one"));
+    }
+  }
+}
+
 TEST_F(MeterCommand, OfARunTakesTheDrumsSizeAlone) {
   write_chain_run(folder_ / "run", "II", Transition::B, 30);
   write_files({{folder_ / "mine", "drum_load 7000 kg\nwidth 2.13 m\ndiameter 1.5 m\nfrequency 29 Hz\n"

@@ -18,6 +18,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -139,7 +141,26 @@ TEST_F(EndsReport, HasThePageOfDrumsWithTwoEnds) {
   const Parsed index = expect_sound_page(out, 2);
   EXPECT_NE(std::find(index.links.begin(), index.links.end(), "ends.html"), index.links.end());
   EXPECT_EQ(read_text(out / "index.html").find("not judged"), std::string::npos);
-  expect_sound_page(out, 4, "ends.html");
+  expect_sound_page(out, 5, "ends.html");
+  // Over the ratio of both halves: the run's own error at its ratio of 1.5, between two points; the mirror
+  // image at the inverse; contact is lost at large ratios only.
+  const Table error = read_table(out / "data/ends_error.csv");
+  const std::vector<std::string> of = error.text("curve");
+  const std::vector<double> ratio = error.numbers("ratio (-)"), percent = error.numbers("error (%)");
+  std::map<std::string, std::map<double, double>> curves_of;
+  for (std::size_t i = 0; i < of.size(); ++i)
+    curves_of[of[i]][ratio[i]] = percent[i];
+  ASSERT_EQ(curves_of["left end"].size(), 17U);
+  ASSERT_EQ(curves_of["right end"].size(), 17U);
+  const auto above = curves_of["left end"].upper_bound(1.5), below = std::prev(above);
+  EXPECT_LT(below->second, 22.2);
+  EXPECT_GT(above->second, 22.2);
+  EXPECT_NEAR(curves_of["left end"].at(2.0), 38.97, 0.1); // as in inputs/study/ends/findings.md
+  EXPECT_NEAR(curves_of["right end"].at(2.0), -36.89, 0.1);
+  EXPECT_NEAR(curves_of["left end"].at(0.25), -67.5, 0.1);
+  EXPECT_EQ(curves_of["contact is lost"].count(1.0), 0U);
+  EXPECT_EQ(curves_of["contact is lost"].count(4.0), 1U);
+  EXPECT_EQ(curves_of["contact is lost"].count(0.25), 1U);
   EXPECT_TRUE(contains(read_text(out / "ends.html"),
                        {"A meter at the left end of a drum that tilts shows 22 % more stiffness than one in "
                         "the middle, a meter at the right end 22 % less (run unbroken, one of 2).",
