@@ -281,22 +281,26 @@ void add_error_figure(const EndsResult &result, std::size_t number, FigurePlan &
   CurveTable table("ratio (-),error (%)");
   constexpr std::array<const char *, 2> ends = {"left end", "right end"};
   constexpr int steps = 8; // to either side
+  std::vector<OneSidedError> errors;
   for (int step = -steps; step <= steps; ++step) {
     const double ratio = std::pow(largest_ratio, static_cast<double>(step) / steps);
-    const OneSidedError error = one_sided_error(machine_on(ratio), ratio);
-    for (std::size_t end = 0; end < ends.size(); ++end) {
+    errors.push_back(one_sided_error(machine_on(ratio), ratio));
+  }
+  for (std::size_t end = 0; end < ends.size(); ++end) {
+    for (const OneSidedError &error : errors)
       table.row(ends[end], {error.ratio, 100.0 * error.ends[end]});
+    for (const OneSidedError &error : errors)
       if (error.lost) table.row("contact is lost", {error.ratio, 100.0 * error.ends[end]});
-    }
   }
   Panel panel{"Error of a meter at one end",
               "stiffness of the left half over that of the right (-)",
               "k_1 less that in the middle (%)",
               {}};
   panel.log_x = panel.plain_numbers = panel.tight_x = true;
-  panel.add(curve(name, ends[0], "2", "3", CurveStyle::line_1), "sensor at the left end");
-  panel.add(curve(name, ends[1], "2", "3", CurveStyle::line_2), "at the right end");
-  panel.add(curve(name, "contact is lost", "2", "3", CurveStyle::mark_1), "contact is lost: apparent values");
+  panel.add(curve(name, ends[0], "$2", "3", CurveStyle::line_1), "sensor at the left end");
+  panel.add(curve(name, ends[1], "$2", "3", CurveStyle::line_2), "at the right end");
+  panel.add(curve(name, "contact is lost", "$2", "3", CurveStyle::mark_1),
+            "contact is lost: apparent values");
   plan.figures.push_back(
       {section,
        label,
