@@ -384,7 +384,8 @@ PageTable meter_table(const std::vector<EndsResult> &results) {
       "Values are of the same cycles, as drumlin meter gives them. k_1: real part of the soil's force over "
       "the displacement at the excitation frequency; at an end with the acceleration of the sensor there and "
       "the force on the whole drum. Error: k_1 at an end over k_1 in the middle, less 1; the way back over "
-      "the same soil has both ends exchanged. k_1 of a half: force over displacement of that half. In "
+      "the same soil has both ends exchanged if the roller turns round. k_1 of a half: force over "
+      "displacement of that half. In "
       "unbroken contact it is the stiffness of the soil there; with loss of contact all of these are "
       "apparent.");
   return table;
@@ -512,7 +513,7 @@ std::string ends_page(const ReportContent &content) {
   begin("numbers", "Numbers");
   s += "<p>Drum and frame move up and down and tilt about the way of travel, on contacts along the width of "
        "the drum, each of which is made and broken by itself. A sensor at one end then shows another soil "
-       "than one in the middle, and on the way back that of the other end.</p>\n";
+       "than one in the middle, and that of the other end when the roller has turned round.</p>\n";
   for (const PageTable &table : content.tables)
     if (table.section == section) s += table_html(table);
   s += "</section>\n";
