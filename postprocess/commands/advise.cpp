@@ -174,7 +174,7 @@ void run_ends(const Arguments &arguments) {
                2 * reference.contacts);
   fmt::print("  unbroken   without loss of contact two are exact, for meters, too\n"
              "  time       {:.2g} times that of 2 contacts\n"
-             "  measured on one machine and one damping of the soil: compare with twice as many contacts\n"
+             "  others     of machine and damping were not measured: compare with twice as many contacts\n"
              "  run        {} exact --contacts {} --out DIR\n",
              advice.seconds / study.front().seconds, front_command(), advice.contacts);
 }

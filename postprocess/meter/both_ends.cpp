@@ -48,10 +48,10 @@ std::vector<std::string> answer_lines(const BothEnds &ends, const MeterWindow &m
   const MeterWindow &left = ends.at_end[0].back(), &right = ends.at_end[1].back();
   std::vector<std::string> lines;
   if (left.k_1 && right.k_1)
-    lines.push_back(fmt::format(
-        "A meter at the left end shows k_1 = {} MN/m, one in the middle {} MN/m, one "
-        "at the right end {} MN/m: a roller that turns round shows one end forth, the other back.",
-        in_MN(left.k_1), in_MN(middle.k_1), in_MN(right.k_1)));
+    lines.push_back(
+        fmt::format("A meter at the left end shows k_1 = {} MN/m, one in the middle {} MN/m, one "
+                    "at the right end {} MN/m: one end forth, the other one back if the roller turns round.",
+                    in_MN(left.k_1), in_MN(middle.k_1), in_MN(right.k_1)));
   if (!ends.missing.empty()) {
     lines.push_back("The stiffness of each half needs more: " + ends.missing);
     return lines;

@@ -129,6 +129,31 @@ TEST_F(MeterCommand, AtOneEndOfADrumThatTiltsShowsTheSoilOfThatEnd) {
   EXPECT_NEAR(last("c_1_right_half [N s/m]"), 0.4 * c, 1e-5 * c);
 }
 
+// Forth and back over the same soft side: a roller that turns round shows the stiffness below the other end,
+// one that comes back in reverse the same. Values are those of complex algebra in unbroken contact.
+TEST_F(MeterCommand, AtOneEndDependsOnHowTheRollerComesBack) {
+  write_files(
+      {{folder_ / "way.csv", "s (m),k_left (N/m),k_right (N/m),D (-)\n0,9e6,6e6,0.2\n20,9e6,6e6,0.2\n"}});
+  for (const bool turns : {false, true}) {
+    std::vector<std::string> words = {
+        DRUMLIN_TOOLS, "exact", "--roller", DRUMLIN_SOURCE_DIR "/inputs/rollers/Axas2020",
+        "--contacts",  "2",     "--way",    "way.csv",
+        "--speed",     "4",     "--passes", "2",
+        "--out",       "run"};
+    if (turns) words.emplace_back("--turn-round");
+    well(run_program(words, {}, folder_));
+    for (const int pass : {1, 2}) {
+      well(meter({"run", "--of-pass", std::to_string(pass)}));
+      const Table table = read_table(folder_ / "results/meter/meter.csv");
+      const bool swapped = turns && pass == 2;
+      for (const auto &[column, stiffness] : {std::pair("k_1_left_end [N/m]", swapped ? 11.20 : 18.29),
+                                              {"k_1_right_end [N/m]", swapped ? 18.96 : 11.73},
+                                              {"k_1_left_half [N/m]", swapped ? 6.0 : 9.0}})
+        EXPECT_NEAR(1e-6 * table.numbers(column).back(), stiffness, 1e-2) << column << pass;
+    }
+  }
+}
+
 // Under A a contact may pull: on soil so damped that it does in each cycle contact is unbroken all the same,
 // and the stiffness of each half is that of the soil. Where an end lifts off it is apparent.
 TEST_F(MeterCommand, AContactThatPullsUnderAIsUnbroken) {
