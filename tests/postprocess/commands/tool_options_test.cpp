@@ -507,8 +507,9 @@ TEST_F(ToolOptions, SpotsAreOfTheLowestLayer) {
   for (double size = 0.0, density = 0.0, x = 0.0, y = 0.0, z = 0.0;
        rows >> id >> type >> size >> density >> x >> y >> z;) {
     const int spot = x >= -0.5 && x <= -0.25 ? 5 : x >= 0.1 && x <= 0.6 ? 6 : 1;
-    counted += type == 4 ? 0 : 1;
-    if (type != 4) EXPECT_EQ(type, spot) << x;
+    if (type == 4) continue;
+    ++counted;
+    EXPECT_EQ(type, spot) << x;
   }
   EXPECT_GT(counted, 100);
   for (const auto &[words, message] : std::vector<std::pair<std::vector<std::string>, std::string>>{
