@@ -524,9 +524,10 @@ void add_bed_command(CLI::App &app, Session &) {
          "--radius-max, --grading), and the smallest size of its balls [mm] (else so that the layer has its "
          "share of --balls, the same for each); --balls then counts for curves without CUT only")
       ->type_name("THICKNESS[:SIEVE[:CUT]]");
-  bed->add_option("--spot", arguments->spots,
-                  "a part of the lowest layer, along the way, with contacts of its own, such as a soft spot; may "
-                  "be given several times, in the order of the way; x is 0 in the middle [m]")
+  bed->add_option(
+         "--spot", arguments->spots,
+         "a part of the lowest layer, along the way, with contacts of its own, such as a soft spot; may "
+         "be given several times, in the order of the way; x is 0 in the middle [m]")
       ->type_name("FROM:TO");
   bed->add_option(
          "--relative-density", arguments->relative_densities,

@@ -18,7 +18,7 @@ struct BedRequest {
     std::optional<SieveCurve> asked;
   };
   std::vector<Layer> layers;
-  std::vector<Spot> spots; ///< of the lowest layer
+  std::vector<Spot> spots;         ///< of the lowest layer
   double density = 2650.0;         ///< of a ball, kg/m3; in two dimensions of a disc 1 m thick
   std::optional<SieveCurve> asked; ///< the whole curve that PackingOptions::sieve is the coarser part of
   std::filesystem::path out = "results/bed/balls.data"; ///< its folder is made if missing

@@ -238,7 +238,7 @@ void run(const Arguments &arguments) {
   if (!found.windows.empty()) {
     const LawEstimate &law = found.whole.law;
     const std::string words = averaging_words(record, found.windows.back().begin, found.windows.back().end,
-                                          std::pair(law.k.mean, law.c.mean));
+                                              std::pair(law.k.mean, law.c.mean));
     if (!words.empty()) fmt::print("  {}\n", words);
   }
   if (compared)

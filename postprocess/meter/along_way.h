@@ -45,10 +45,9 @@ void add_places(std::vector<MeterWindow> &windows, const Record &record);
 /// bond, or if it does not fall.
 std::optional<double> memory_time(const Record &record, double k, double c);
 
-/// Over which length of the way windows of so many seconds average the soil, as a sentence; empty for a record
-/// without places, or of a roller that stands.
-/// \param soil k [N/m] and c [N s/m], if they are known
+/// Over which length of the way windows of so many seconds average the soil, as a sentence; empty for a
+/// record without places, or of a roller that stands. \param soil k [N/m] and c [N s/m], if they are known
 std::string averaging_words(const Record &record, double begin, double end,
-                        const std::optional<std::pair<double, double>> &soil);
+                            const std::optional<std::pair<double, double>> &soil);
 
 } // namespace drumlin::post

@@ -31,8 +31,8 @@ std::string source_words(const MeterResult &result);
 /// say.
 std::string width_words(const MeterResult &result);
 
-/// Over which length of the way the last window averages the soil, see averaging_words() of a record; empty if the
-/// roller does not drive.
+/// Over which length of the way the last window averages the soil, see averaging_words() of a record; empty
+/// if the roller does not drive.
 std::string averaging_words(const MeterResult &result);
 
 /// How a record was understood: how its files are written, what its columns are, its pieces, rate and length.

@@ -233,7 +233,8 @@ TEST_F(MeterCommand, TakesWindowsByDistanceAlongTheWay) {
       EXPECT_NEAR(driven.numbers(column).back(), standing.numbers(column).back(),
                   2e-3 * std::abs(standing.numbers(column).back()))
           << column << part.k;
-    EXPECT_TRUE(printed(outcome, fmt::format("A window averages the soil over {:.3g} m", cycles / frequency)));
+    EXPECT_TRUE(
+        printed(outcome, fmt::format("A window averages the soil over {:.3g} m", cycles / frequency)));
   }
   EXPECT_TRUE(printed(meter({"stands"}), "CMV"));
   EXPECT_FALSE(meter({"stands"}).says("averages the soil"));
