@@ -135,11 +135,10 @@ TEST_F(MeterCommand, AtOneEndDependsOnHowTheRollerComesBack) {
   write_files(
       {{folder_ / "way.csv", "s (m),k_left (N/m),k_right (N/m),D (-)\n0,9e6,6e6,0.2\n20,9e6,6e6,0.2\n"}});
   for (const bool turns : {false, true}) {
-    std::vector<std::string> words = {
-        DRUMLIN_TOOLS, "exact", "--roller", DRUMLIN_SOURCE_DIR "/inputs/rollers/Axas2020",
-        "--contacts",  "2",     "--way",    "way.csv",
-        "--speed",     "4",     "--passes", "2",
-        "--out",       "run"};
+    const std::string roller = DRUMLIN_SOURCE_DIR "/inputs/rollers/Axas2020";
+    std::vector<std::string> words = {DRUMLIN_TOOLS, "exact", "--roller", roller,    "--contacts",
+                                      "2",           "--way", "way.csv",  "--speed", "4",
+                                      "--passes",    "2",     "--out",    "run"};
     if (turns) words.emplace_back("--turn-round");
     well(run_program(words, {}, folder_));
     for (const int pass : {1, 2}) {

@@ -33,7 +33,7 @@ PageTable shipped() { return read_observations({folder / observations_file}); }
 
 std::string cell(const PageTable &table, std::size_t row, const std::string &column) {
   const auto found = std::find(table.header.begin(), table.header.end(), column);
-  return table.rows.at(row).at(found - table.header.begin());
+  return table.rows.at(row).at(static_cast<std::size_t>(found - table.header.begin()));
 }
 
 ReportOutcome report_of(const fs::path &in, const fs::path &out) {
