@@ -26,7 +26,7 @@ struct ContactsQuestion {
 /// "regime", "tilt" and "contact".
 extern const std::vector<ContactsQuestion> contacts_questions;
 
-/// The rows of contacts.csv of a study, by the number of contacts; the last one is the reference.
+/// The rows of contacts.csv, in the order of the number of contacts; errors are against the last row.
 /// std::runtime_error of one line for a table that cannot be used.
 std::vector<ContactsError> read_contacts_study(const std::filesystem::path &file);
 

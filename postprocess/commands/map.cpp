@@ -274,7 +274,7 @@ CsvSchema<ChainRow> map_columns(const MapGrid &grid) {
 }
 
 /// All points of the map in its order; those that an earlier call has written are not computed again.
-/// \param at_once so many are written after each other
+/// \param at_once number of points that are computed before they are written
 template <class Point, class Judge>
 std::vector<Point> map_points(const Task &task, const CsvSchema<MapRow<Point>> &columns, std::size_t at_once,
                               const Judge &judge) {

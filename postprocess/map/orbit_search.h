@@ -298,9 +298,9 @@ double bisected(double from, double to, const Same &same) {
   return 0.5 * (from + to);
 }
 
-/// Value of the varied parameter at which an orbit changes its kind.
+/// Where an orbit changes its kind while a parameter is varied.
 struct OrbitChange {
-  double value = 0.0; ///< value of the varied parameter, relative error 1e-11
+  double value = 0.0; ///< of the parameter, with a relative error of 1e-11
   bool smooth = true; ///< doubling: a multiplier passes -1; false: it jumps over -1, since the orbit meets a
                       ///< boundary of the contact
 };

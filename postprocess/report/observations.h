@@ -21,7 +21,7 @@ constexpr const char *observations_title = "What rollers have been observed to d
 /// than "differs", "differs in part", "agrees" and "not modelled".
 PageTable read_observations(const std::vector<std::filesystem::path> &files);
 
-/// Writes the page of the table that read_observations() gives to a folder. Throws std::runtime_error.
+/// Writes the page of a table of observations into a folder. Throws std::runtime_error.
 void write_observations_page(const std::filesystem::path &folder, const PageTable &observations);
 
 } // namespace drumlin::post

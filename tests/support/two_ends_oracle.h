@@ -32,7 +32,7 @@ public:
       if (gap(j, y_) < 0.0) phase_[j] = law(j, 0.0, y_) > 0.0 || !b() ? acting : silent;
   }
 
-  /// From the present time on the contacts are those of another soil.
+  /// Replaces the contacts, as where the roller comes to another soil.
   void meet(Soil soil) {
     soil_ = std::move(soil);
     const oracle::State y = ode_.state();

@@ -199,7 +199,7 @@ struct WholeSoil {
   double k = 0.0, c = 0.0;
 };
 
-/// That of the run: as it was given for equal contacts, else as measured in unbroken contact.
+/// Stiffness of the run: the given one if contacts are equal, else that measured in unbroken contact.
 std::optional<WholeSoil> soil_of(const EndsResult &result) {
   const std::optional<double> k = result.run.number("k"), c = result.run.number("c");
   if (k && c) return WholeSoil{*k, *c};
