@@ -230,7 +230,7 @@ private:
     step("", [this] {
       BedRequest bed;
       bed.out = lift_ / "balls.data";
-      bed.packing.width = 5.0;
+      bed.packing.width = 4.4;
       const MeasuredPackings packings = read_packings(decks_ / "bed/packings.gravel.csv");
       for (const auto &[thickness, relative_density] : {std::pair{0.4, 0.9}, std::pair{0.3, 0.1}}) {
         BedLayer layer{bed.packing, thickness, packings.pouring(relative_density)};
@@ -253,7 +253,7 @@ private:
     run_engine({"roller comes to rest on it",
                 lift_ / "made/roller",
                 decks_ / "bed/in.place",
-                {{"bed", soil}, {"start", start}, {"roller", roller}, {"place", "-1.5"}, {"ratio", "0.1"}}});
+                {{"bed", soil}, {"start", start}, {"roller", roller}, {"place", "-1.2"}, {"ratio", "0.1"}}});
     run_engine({"roller drives",
                 lift_ / "B",
                 decks_ / "bed/in.drive",
