@@ -303,6 +303,15 @@ double default_cut(const SieveCurve &curve, const PackingOptions &options) {
   return cut_for(curve, options, wanted, height);
 }
 
+std::optional<std::string> packings_file(const PackingOptions &box) {
+  const PackingOptions usual;
+  constexpr double rounding = 1e-9;
+  if (box.sieve || box.grading != usual.grading ||
+      std::abs(box.radius_max / box.radius_min * usual.radius_min / usual.radius_max - 1.0) >= rounding)
+    return std::nullopt;
+  return box.dimensions() == 2 ? "bed/packings.gravel.csv" : "bed/packings.gravel3d.csv";
+}
+
 std::string BedLayer::invalid() const {
   const Range range = {2.0 * packing.largest_radius(), PackingOptions::length_range.most, "m"};
   if (range.holds(thickness)) return {};

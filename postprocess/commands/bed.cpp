@@ -115,13 +115,6 @@ void judge_sieve(const Arguments &arguments, BedRequest &request) {
                             : default_cut(curve, request.packing));
 }
 
-/// Whether the balls are those of the stored packings, of which the ratio of sizes counts.
-bool is_usual_mix(const PackingOptions &box) {
-  const PackingOptions usual;
-  return box.grading == usual.grading &&
-         std::abs(box.radius_max / box.radius_min * usual.radius_min / usual.radius_max - 1.0) < 1e-9;
-}
-
 /// The packings of a layer's mix: of `file`, a density.csv of in.density, or, if it is empty, the stored ones
 /// of case gravel.
 MeasuredPackings known_packings(const std::string &file, const std::string &density, bool has_curve,
@@ -136,12 +129,12 @@ MeasuredPackings known_packings(const std::string &file, const std::string &dens
       throw UsageError(fault.what());
     }
   }
-  if (has_curve || !is_usual_mix(box))
+  const std::optional<std::string> stored = has_curve ? std::nullopt : packings_file(box);
+  if (!stored)
     throw UsageError(refusal("--relative-density", density,
                              "with --packings: the loosest and the densest packing of another mix than that "
                              "of case gravel are known when inputs/soil/in.density has made them"));
-  return read_packings(
-      input_file(box.dimensions() == 2 ? "bed/packings.gravel.csv" : "bed/packings.gravel3d.csv"));
+  return read_packings(input_file(*stored));
 }
 
 /// What an option given once, or once for each layer, says of a layer; empty: the option is not given.

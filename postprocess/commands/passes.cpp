@@ -98,13 +98,6 @@ PassesResult measured(const fs::path &folder, const PassesOptions &options) {
   }
 }
 
-std::vector<FileText> tables_of(const fs::path &folder, const PassesResult &result) {
-  return {{folder / "passes.csv", passes_csv(result)},
-          {folder / "way.csv", way_csv(result)},
-          {folder / "surface.csv", surface_csv(result)},
-          {folder / "depth.csv", depth_csv(result)}};
-}
-
 std::vector<FileText> acceptance_of(const fs::path &folder, const JudgedMap &judged) {
   return {{folder / "acceptance.csv", acceptance_csv(judged.map, judged.rows)},
           {folder / "variogram.csv", variogram_csv(judged.map, judged.variogram)}};
@@ -154,14 +147,14 @@ void print_passes(const PassesArguments &arguments) {
   write_passes_page(page.path(), results, judged);
   std::vector<FileText> tables = acceptance_of(task.out, judged);
   if (results.size() == 1) {
-    for (FileText &table : tables_of(task.out, results.front()))
+    for (FileText &table : pass_tables(task.out, results.front()))
       tables.push_back(std::move(table));
   } else {
     tables.emplace_back(task.out / "passes.csv", passes_csv(results));
     for (std::size_t n = 0; n < results.size(); ++n) {
       const fs::path folder = task.out / fmt::format("run-{}", n + 1);
       make_output_folder(folder);
-      for (FileText &table : tables_of(folder, results[n]))
+      for (FileText &table : pass_tables(folder, results[n]))
         tables.push_back(std::move(table));
     }
   }

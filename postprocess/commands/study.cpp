@@ -182,6 +182,7 @@ void add_study_command(CLI::App &app, Session &) {
   command->add_flag("--quick", arguments->quick, "few points: to see that it works");
   std::string footer =
       "Plans of beds and samples, in inputs/study/NAME/plan, with 95 % confidence intervals over seeds:\n"
+      "  drive      what passes of a roller leave in a lift, and what decides it\n"
       "  base       what yield, suction and density do for a roller on a base course\n"
       "  box        what width, depth, walls and absorbing sides of the box change\n"
       "  damping    where the energy of a cycle goes, and which damping follows\n"

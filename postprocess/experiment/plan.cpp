@@ -201,6 +201,7 @@ private:
         {"radius_max", {&R::take_radius_max, true, false}},
         {"grading", {&R::take_grading, true, false}},
         {"layer", {&R::take_layer, false, false}},
+        {"spot", {&R::take_spot, false, false}},
         {"ratio", {&R::take_ratio, true, false}},
         {"at", {&R::take_at, false, false}},
         {"series", {&R::take_series, true, false}},
@@ -269,7 +270,7 @@ private:
         refuse(fmt::format("{}, or NAME UNIT WAY FILE COLUMN", fmt::join(names, ", ")));
       }
       quantity = *known;
-    } else if (words.size() == own) {
+    } else if (words.size() >= own) {
       if (!is_name(words[0])) refuse("NAME UNIT WAY FILE COLUMN, NAME of letters, digits and _");
       if (is_nan(words[0]) || is_nan(words[1]))
         refuse("NAME UNIT WAY FILE COLUMN, NAME and UNIT not nan, which means no value");
@@ -278,7 +279,9 @@ private:
       const std::vector<const char *> ways = column_ways();
       if (std::find(ways.begin(), ways.end(), words[2]) == ways.end())
         refuse(fmt::format("NAME UNIT WAY FILE COLUMN, WAY one of {}", fmt::join(ways, ", ")));
-      quantity = column_quantity(words[0], words[1], words[2], words[3], words[4]);
+      const std::vector<std::string> column(words.begin() + own - 1, words.end()); // may have a unit
+      quantity =
+          column_quantity(words[0], words[1], words[2], words[3], fmt::format("{}", fmt::join(column, " ")));
     } else {
       refuse("the name of a bed's quantity, or NAME UNIT WAY FILE COLUMN");
     }
@@ -417,15 +420,29 @@ private:
     if (seen_.insert(keyword_).second) bed().layers.clear(); // those of the scene above
     const std::vector<std::string> words = words_of(value_);
     const std::optional<double> thickness = any_number_from_text(words[0]);
+    const bool has_density = words.size() == 3 && words[1] == "relative_density";
+    const std::optional<double> density = has_density ? any_number_from_text(words[2]) : std::nullopt;
     const std::optional<SieveCurve> sizes =
         words.size() == 2 ? curve_between(words[1]) : std::optional<SieveCurve>();
-    if (!thickness || !PackingOptions::length_range.holds(*thickness) || (words.size() > 1 && !sizes))
+    if (!thickness || !PackingOptions::length_range.holds(*thickness) ||
+        (words.size() > 1 && !sizes && !density) || (density && !(*density >= 0.0 && *density <= 1.0)))
       refuse(PackingOptions::length_range.words() +
-             ", and behind it nothing or the smallest and the largest size, in mm, as 32-48");
+             ", and behind it nothing, the smallest and the largest size, in mm, as 32-48, or "
+             "relative_density and a number from 0 to 1");
     BedLayer layer{{}, *thickness};
     layer.packing.sieve = sizes;
     if (sizes) layer.packing.sieve_name = words[1];
+    if (density) layer.pouring = Pouring{*density, 0.0, 0.0, 0.0, 0.0, 0.0}; // the rest in check_bed()
     bed().layers.push_back(layer);
+  }
+  void take_spot() {
+    if (seen_.insert(keyword_).second) bed().spots.clear(); // those of the scene above
+    const std::vector<std::string> words = words_of(value_);
+    const auto number = [&](std::size_t n) { return any_number_from_text(words[n]).value_or(NAN); };
+    const double least = bed().spots.empty() ? -PackingOptions::length_range.most : bed().spots.back().to;
+    if (words.size() != 2 || !(number(0) >= least) || !(number(1) > number(0)))
+      refuse("FROM TO, m from the middle of the box, in the order of the way");
+    bed().spots.push_back({number(0), number(1)});
   }
   void take_ratio() { bed().ratio = number_text(number(above_zero)); }
 
@@ -504,8 +521,22 @@ private:
       layer.packing.sieve = own.sieve;
       layer.packing.sieve_name = own.sieve_name;
       if (const std::string wrong = layer.invalid(); !wrong.empty()) refuse("a bed of which " + wrong);
+      if (layer.pouring.has_value() != scene.bed->layers.front().pouring.has_value())
+        refuse("relative_density of all layers, or of none");
+      if (layer.pouring) {
+        const std::optional<std::string> packings = packings_file(layer.packing);
+        if (!packings)
+          refuse("relative_density of layers without sizes of their own, whose radii have the ratio of case "
+                 "gravel");
+        layer.pouring = read_packings(input_file(*packings)).pouring(layer.pouring->relative_density);
+      }
       layer.packing.balls = balls_of(layer);
     }
+    for (const Spot &spot : scene.bed->spots)
+      if (scene.bed->layers.empty() || spot.from < -0.5 * scene.bed->packing.width ||
+          spot.to > 0.5 * scene.bed->packing.width ||
+          spot.to - spot.from < 2.0 * scene.bed->layers.front().packing.largest_radius())
+        refuse("a spot in the width of a bed of layers, as long as the largest ball of the lowest one");
   }
 
   void add_comparison(const Explicit &one) {
@@ -575,7 +606,10 @@ Plan Plan::quick() const {
   for (Scene &scene : plan.scenes) {
     scene.seeds = std::min(scene.seeds, quick_seeds);
     for (Setting &setting : scene.settings)
-      if (setting.name == "cycles") setting.value = quick_cycles;
+      if (setting.name == "cycles")
+        setting.value = quick_cycles;
+      else if (setting.name == "passes")
+        setting.value = "2";
   }
   const auto is_left_out = [&plan](const std::pair<std::string, std::string> &pair) {
     const auto has = [&plan](const std::string &name) {

@@ -3,8 +3,11 @@
 #include "record/record.h"
 #include "identify/identified_record.h"
 #include "meter/values.h"
+#include "passes/drive.h"
+#include "passes/tables.h"
 #include "support/csv.h"
 #include "support/csv_schema.h"
+#include "support/files.h"
 #include "runs/parameter_file.h"
 
 #include <fmt/format.h>
@@ -32,9 +35,9 @@ public:
 
   const Table &table(const std::string &name) {
     const auto found = tables_.find(name);
-    return found != tables_.end()
-               ? found->second
-               : tables_.emplace(name, read_table(folder_ / name, CutRows::last)).first->second;
+    if (found != tables_.end()) return found->second;
+    if (!std::filesystem::exists(folder_ / name)) measure_passes_for(name);
+    return tables_.emplace(name, read_table(folder_ / name, CutRows::last)).first->second;
   }
 
   double parameter(const std::string &name) {
@@ -64,6 +67,15 @@ public:
   }
 
 private:
+  /// Writes what `drumlin passes` does of a roller that has driven, if a table of that is asked for.
+  void measure_passes_for(const std::string &name) const {
+    constexpr std::array tables = {"passes.csv", "way.csv", "surface.csv", "depth.csv"};
+    if (std::find(tables.begin(), tables.end(), name) == tables.end() ||
+        !std::filesystem::is_directory(folder_ / "dump"))
+      return;
+    write_files(pass_tables(folder_, measure_passes(read_drive(folder_), {})));
+  }
+
   std::filesystem::path folder_;
   double width_;
   std::map<std::string, Table> tables_;
@@ -100,14 +112,24 @@ struct ColumnWay {
   std::size_t rows; ///< that it needs
   double (*value)(const std::vector<double> &);
 };
-const std::array<ColumnWay, 5> ways = {
+const std::array<ColumnWay, 6> ways = {
     {{"last", 1, [](const std::vector<double> &values) { return values.back(); }},
+     {"gain", 2, [](const std::vector<double> &values) { return values.back() - values.front(); }},
      {"mean", 2, &mean_of},
      {"largest", 1,
       [](const std::vector<double> &values) { return *std::max_element(values.begin(), values.end()); }},
      {"smallest", 1,
       [](const std::vector<double> &values) { return *std::min_element(values.begin(), values.end()); }},
      {"per_row", 2, &per_row_of}}};
+
+/// The numbers of a column; an empty cell is a value that is not known.
+std::vector<double> known_numbers(const Table &table, const std::string &column) {
+  const std::vector<std::string> cells = table.text(column);
+  std::vector<double> numbers;
+  for (std::size_t row = 0; row < cells.size(); ++row)
+    if (!cells[row].empty()) numbers.push_back(csv_number(table.file(), table.line(row), column, cells[row]));
+  return numbers;
+}
 
 /// \pre one of `ways` has the name
 std::function<double(RunFiles &)> of_column(const std::string &file, const std::string &column,
@@ -116,7 +138,8 @@ std::function<double(RunFiles &)> of_column(const std::string &file, const std::
       *std::find_if(ways.begin(), ways.end(), [&](const ColumnWay &one) { return name == one.name; });
   return [file, column, way](RunFiles &run) {
     const Table &table = run.table(file);
-    const std::vector<double> values = table.numbers(column);
+    const std::vector<double> values = known_numbers(table, column);
+    if (values.empty() && table.rows() > 0) return none;
     if (values.size() < way.rows)
       csv_fault(table.file(), 0, column,
                 fmt::format("has {} rows; allowed: {} or more", values.size(), way.rows));

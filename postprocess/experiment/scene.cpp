@@ -142,6 +142,8 @@ Scene scaled(Scene scene, int balls, int of) {
   bed.packing.balls = static_cast<int>(static_cast<long>(bed.packing.balls) * balls / of);
   bed.packing.width *= scale;
   bed.packing.height *= scale;
+  for (Spot &spot : bed.spots)
+    spot = {spot.from * scale, spot.to * scale};
   for (BedLayer &layer : bed.layers) {
     layer.packing.width *= scale;
     layer.thickness = number_from_text(number_text(layer.thickness * scale, digits));
@@ -156,8 +158,12 @@ Scene scaled(Scene scene, int balls, int of) {
 
 std::string soil_text(const Scene &scene) {
   std::string text = deck_of(scene, SceneDeck::settle) + " " + text_of(scene.bed->packing);
-  for (const BedLayer &layer : scene.bed->layers)
+  for (const BedLayer &layer : scene.bed->layers) {
     text += fmt::format("{} {}", layer.thickness, text_of(layer.packing));
+    if (layer.pouring) text += fmt::format("{} ", layer.pouring->relative_density);
+  }
+  for (const Spot &spot : scene.bed->spots)
+    text += fmt::format("{}:{} ", spot.from, spot.to);
   return text + words_of(variables_of(scene, SceneDeck::settle));
 }
 

@@ -52,8 +52,9 @@ fs::path settled_soil(const Scene &scene, int seed, const fs::path &out) {
     layer.packing.seed = packing.seed;
   const TemporaryFolder unfinished(folder, "unfinished.");
   const fs::path balls = unfinished.path() / "balls", soil = unfinished.path() / "soil";
-  write_files({{balls, layers.empty() ? bed_data(packing, soil_density, pack_balls(packing))
-                                      : bed_data(layers, soil_density, pack_layers(layers))}});
+  write_files(
+      {{balls, layers.empty() ? bed_data(packing, soil_density, pack_balls(packing))
+                              : bed_data(layers, soil_density, pack_layers(layers), scene.bed->spots)}});
   print_progress(fmt::format("settling the soil of {}, seed {}", scene.name, seed));
   DeckRun(deck_of(scene, SceneDeck::settle),
           joined(variables_of(scene, SceneDeck::settle), {{"balls", balls.string()}, {"bed", soil.string()}}))

@@ -71,23 +71,6 @@ std::vector<PassColumn> pass_columns(std::size_t layers) {
   return columns;
 }
 
-std::string passes_csv(const PassesResult &result) {
-  const std::vector<PassColumn> columns = pass_columns(result.layers());
-  std::vector<std::string> header = {"pass"};
-  for (const PassColumn &column : columns)
-    header.push_back(column.header);
-  header.emplace_back("mode");
-  std::string text = csv_line(header);
-  for (const PassValues &pass : result.passes) {
-    std::vector<std::string> cells = {std::to_string(pass.pass)};
-    for (const PassColumn &column : columns)
-      cells.push_back(cell_of(column.value(pass)));
-    cells.push_back(pass.mode);
-    text += csv_line(cells);
-  }
-  return text;
-}
-
 std::size_t most_passes(const std::vector<PassesResult> &results) {
   std::size_t most = 0;
   for (const PassesResult &result : results)
@@ -135,6 +118,25 @@ std::string passes_csv(const std::vector<PassesResult> &results) {
       cells.push_back(cell_of(mean.half_width));
     }
     cells.push_back(mode_in(results, pass));
+    text += csv_line(cells);
+  }
+  return text;
+}
+
+namespace {
+
+std::string passes_csv(const PassesResult &result) {
+  const std::vector<PassColumn> columns = pass_columns(result.layers());
+  std::vector<std::string> header = {"pass"};
+  for (const PassColumn &column : columns)
+    header.push_back(column.header);
+  header.emplace_back("mode");
+  std::string text = csv_line(header);
+  for (const PassValues &pass : result.passes) {
+    std::vector<std::string> cells = {std::to_string(pass.pass)};
+    for (const PassColumn &column : columns)
+      cells.push_back(cell_of(column.value(pass)));
+    cells.push_back(pass.mode);
     text += csv_line(cells);
   }
   return text;
@@ -195,6 +197,15 @@ std::string depth_csv(const PassesResult &result) {
                                      : "",
                       row.vertical ? std::to_string(std::max<std::size_t>(1, passing)) : ""});
   return text;
+}
+
+} // namespace
+
+std::vector<FileText> pass_tables(const std::filesystem::path &folder, const PassesResult &result) {
+  return {{folder / "passes.csv", passes_csv(result)},
+          {folder / "way.csv", way_csv(result)},
+          {folder / "surface.csv", surface_csv(result)},
+          {folder / "depth.csv", depth_csv(result)}};
 }
 
 } // namespace drumlin::post

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "passes/values.h"
+#include "support/files.h"
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,18 +19,14 @@ struct PassColumn {
 /// The columns of a bed of so many layers.
 std::vector<PassColumn> pass_columns(std::size_t layers);
 
-/// passes.csv of a run: a row before the first pass and one after each.
-std::string passes_csv(const PassesResult &result);
 /// passes.csv of several runs: of each column the mean over the runs and half of its 95 % interval, in the
 /// row of each pass that at least one run has, and the number of runs that have it.
 /// \pre runs of equal layers
 std::string passes_csv(const std::vector<PassesResult> &results);
-/// way.csv: a row for each cell and pass.
-std::string way_csv(const PassesResult &result);
-/// surface.csv: heights along the way, a column for each pass.
-std::string surface_csv(const PassesResult &result);
-/// depth.csv: a row for each slice and pass.
-std::string depth_csv(const PassesResult &result);
+/// The tables of a run in a folder: passes.csv, a row before the first pass and one after each; way.csv, a
+/// row for each cell and pass; surface.csv, heights along the way, a column for each pass; depth.csv, a row
+/// for each slice and pass.
+std::vector<FileText> pass_tables(const std::filesystem::path &folder, const PassesResult &result);
 
 /// The number of passes that the longest of the runs has.
 std::size_t most_passes(const std::vector<PassesResult> &results);

@@ -5,14 +5,17 @@
 #include "engine/places.h"
 #include "experiment/results.h"
 #include "experiment/scene_run.h"
+#include "support/csv.h"
 #include "support/files.h"
 #include "support/resumed.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <regex>
@@ -71,25 +74,34 @@ TEST(FilesOfABed, AreNamedForAllThatMadeThem) {
   scene.deck = "bed/in.bed";
   scene.bed = post::SoilBed{};
   std::set<std::string> names{post::placed_name(scene, 1), post::placed_name(scene, 2)};
-  for (auto change :
-       std::vector<void (*)(post::Scene &)>{[](post::Scene &other) { ++other.bed->packing.balls; },
-                                            [](post::Scene &other) { other.bed->packing.radius_max += 1e-3; },
-                                            [](post::Scene &other) { other.bed->ratio = "2e-2"; },
-                                            [](post::Scene &other) { other.stiffness = 1e8; },
-                                            [](post::Scene &other) {
-                                              other.settings = {{post::Scope::all, "k", "1e8"}};
-                                            },
-                                            [](post::Scene &other) {
-                                              other.settings = {{post::Scope::settle, "drag", "40"}};
-                                            },
-                                            [](post::Scene &other) {
-                                              other.settings = {{post::Scope::placed, "sink", "0.1"}};
-                                            }}) {
+  for (auto change : std::vector<void (*)(post::Scene &)>{
+           [](post::Scene &other) { ++other.bed->packing.balls; },
+           [](post::Scene &other) {
+             other.bed->layers = {{other.bed->packing, 0.4}};
+           },
+           [](post::Scene &other) {
+             other.bed->layers = {{other.bed->packing, 0.4, post::Pouring{0.5, 0.1, 0.1, 0.2, 0.3, 0.1}}};
+           },
+           [](post::Scene &other) { other.bed->packing.radius_max += 1e-3; },
+           [](post::Scene &other) { other.bed->ratio = "2e-2"; },
+           [](post::Scene &other) {
+             other.bed->spots = {{0.0, 0.5}};
+           },
+           [](post::Scene &other) { other.stiffness = 1e8; },
+           [](post::Scene &other) {
+             other.settings = {{post::Scope::all, "k", "1e8"}};
+           },
+           [](post::Scene &other) {
+             other.settings = {{post::Scope::settle, "drag", "40"}};
+           },
+           [](post::Scene &other) {
+             other.settings = {{post::Scope::placed, "sink", "0.1"}};
+           }}) {
     post::Scene other = scene;
     change(other);
     names.insert(post::placed_name(other, 1));
   }
-  EXPECT_EQ(names.size(), 9U);
+  EXPECT_EQ(names.size(), 12U);
 }
 
 TEST(OwnStudy, RunsAnyDeckThatWritesATableAndContinues) {
@@ -318,6 +330,68 @@ TEST(BedStudy, RunsInBothEngines) {
   ASSERT_EQ(values.size(), 2U);
   for (const auto &[key, force] : values) // the peak force exceeds the weight
     EXPECT_GT(force, 150.0 * 9.81) << std::get<0>(key);
+}
+
+// The same scene by hand: what `drumlin passes` writes of it is what the study has.
+TEST(DriveStudy, MeasuresWhatPassesLeave) {
+  const Scratch scratch;
+  const Variables soil = {{"case", "loose"}}, roller = {{"m2", "100"},  {"m3", "50"},   {"r2", "0.1"},
+                                                        {"r3", "0.05"}, {"k23", "5e4"}, {"c23", "500"}},
+                  drive = {{"speed", "2"},
+                           {"ramp", "0.05"},
+                           {"margin", "0.05"},
+                           {"omega", "314.1592653589793"},
+                           {"Fw", "2940"},
+                           {"steps_per_cycle", "1000"},
+                           {"samples_per_cycle", "100"},
+                           {"passes", "2"},
+                           {"balance", "10"}};
+  const auto lines = [](const char *keyword, const Variables &variables) {
+    std::string text;
+    for (const auto &[name, value] : variables)
+      text += fmt::format("{} {} {}\n", keyword, name, value);
+    return text;
+  };
+  post::write_files(
+      {{scratch / "drive.plan",
+        "title T\nquantity gain - gain passes.csv solid_fraction_2 [-]\n"
+        "quantity settlement m last passes.csv settlement [m]\nquantity CMV - mean passes.csv CMV [-]\n"
+        "quantity cell - largest way.csv peak_force [N]\n"
+        "deck bed/in.drive\nwidth 1\nratio 1\n"
+        "layer 0.25 relative_density 0.9\nlayer 0.15 relative_density 0.1\n" +
+            lines("set", soil) + lines("set", roller) + "set_placed place -0.3\n" + lines("set_run", drive) +
+            "scene spot\nspot -0.1 0.1\nset k 1e8,1e8,5e7\n"}});
+  const Outcome study =
+      run_program({DRUMLIN_TOOLS, "study", "drive.plan", "--out", "out"}, {}, scratch.path(), 200.0);
+  ASSERT_TRUE(study.ok()) << study.output;
+  const Values values = values_in(scratch / "out");
+  ASSERT_EQ(values.size(), 4U);
+
+  const Outcome balls = run_program({DRUMLIN_TOOLS, "bed", "--width", "1", "--layer", "0.25", "--layer",
+                                     "0.15", "--relative-density", "0.9", "--relative-density", "0.1",
+                                     "--spot", "-0.1:0.1", "--out", "balls"},
+                                    {}, scratch.path(), 100.0);
+  ASSERT_TRUE(balls.ok()) << balls.output;
+  const auto run = [&](const char *deck, const Variables &more) {
+    const Variables all =
+        post::joined(post::joined(post::joined(soil, {{"k", "1e8,1e8,5e7"}}), roller), more);
+    const Outcome outcome = run_deck(post::input_file(deck), all, scratch.path());
+    ASSERT_TRUE(outcome.ok()) << outcome.output;
+  };
+  run("bed/in.settle", {{"balls", "balls"}, {"bed", "soil"}, {"ratio", "1"}});
+  run("bed/in.place", {{"bed", "soil"}, {"start", "roller"}, {"ratio", "1"}, {"place", "-0.3"}});
+  run("bed/in.drive", post::joined(drive, {{"start", "roller"}, {"out", "B"}, {"place", "-0.3"}}));
+  const Outcome passes = run_program({DRUMLIN_TOOLS, "passes", "B"}, {}, scratch.path(), 100.0);
+  ASSERT_TRUE(passes.ok()) << passes.output;
+  const post::Table table = post::read_table(scratch / "B/passes.csv");
+  const std::vector<double> density = table.numbers("solid_fraction_2 [-]");
+  ASSERT_EQ(density.size(), 3U);
+  EXPECT_EQ(values.at({"spot", 1, "gain"}), density[2] - density[0]);
+  EXPECT_GT(values.at({"spot", 1, "gain"}), 0.0);
+  EXPECT_EQ(values.at({"spot", 1, "settlement"}), table.numbers("settlement [m]")[2]);
+  EXPECT_EQ(values.at({"spot", 1, "CMV"}), post::number_from_text(table.text("CMV [-]")[2]));
+  const std::vector<double> forces = post::read_table(scratch / "B/way.csv").numbers("peak_force [N]");
+  EXPECT_EQ(values.at({"spot", 1, "cell"}), *std::max_element(forces.begin(), forces.end()));
 }
 
 // One seed of each scene: no deck refuses a variable that a plan gives it.

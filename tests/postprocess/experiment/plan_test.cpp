@@ -199,6 +199,31 @@ TEST_F(PlanTest, MakesStepsForTheStiffestAndSmallestContacts) {
   EXPECT_NE(post::soil_text(layers), post::soil_text(plan.scene("plain")));
 }
 
+// Layers of a density are poured as `drumlin bed` pours them, and have as many balls; spots are soil, too.
+TEST_F(PlanTest, PoursLayersOfADensityAndMakesSpots) {
+  const Plan plan = read("title T\nquantity force\ndeck bed/in.drive\nwidth 2\nradius_min 0.024\n"
+                         "radius_max 0.036\nlayer 0.4 relative_density 1\nlayer 0.3 relative_density 0\n"
+                         "scene plain\nscene spot\nfrom plain\nspot -0.5 -0.25\nspot 0 1\n"
+                         "scene moved\nfrom spot\nspot 0 1\n"
+                         "scene dense\nfrom plain\nlayer 0.4 relative_density 1\n"
+                         "layer 0.3 relative_density 1\n");
+  const post::MeasuredPackings packings = post::read_packings(post::input_file("bed/packings.gravel.csv"));
+  const std::vector<post::BedLayer> &layers = plan.scene("plain").bed->layers;
+  ASSERT_EQ(layers.size(), 2U);
+  EXPECT_EQ(layers[0].pouring->void_ratio, packings.densest());
+  EXPECT_EQ(layers[1].pouring->void_ratio, packings.loosest());
+  EXPECT_EQ(layers[1].pouring->friction, packings.of_loosest().friction);
+  EXPECT_EQ(layers[1].packing.balls, post::balls_of(layers[1]));
+  EXPECT_GT(plan.scene("dense").bed->layers[1].packing.balls, layers[1].packing.balls);
+  ASSERT_EQ(plan.scene("spot").bed->spots.size(), 2U);
+  EXPECT_EQ(plan.scene("spot").bed->spots[0].to, -0.25);
+  EXPECT_EQ(plan.scene("moved").bed->spots.size(), 1U);
+  std::set<std::string> soils;
+  for (const Scene &scene : plan.scenes)
+    soils.insert(post::soil_text(scene));
+  EXPECT_EQ(soils.size(), 4U);
+}
+
 TEST_F(PlanTest, RefusesEachBadLine) {
   const std::string own = "title T\nquantity gap m last out.csv gap\ndeck in.own\n";
   const std::string bed = "title T\nquantity force\ndeck bed/in.bed\nballs 100\nwidth 0.4\n";
@@ -299,9 +324,25 @@ TEST_F(PlanTest, RefusesEachBadLine) {
   expect_refused(bed + "grading fine\n", ", line 6: grading is 'fine'; allowed: uniform, mass");
   expect_refused(bed + "layer 0.01\nscene a\n",
                  ", line 7: scene is 'a'; allowed: a bed of which layer is '0.01'");
-  expect_refused(bed + "layer 0.3 48-32\n",
-                 ", line 6: layer is '0.3 48-32'; allowed: a number from 1e-06 to 100000 [m], and behind it "
-                 "nothing or the smallest and the largest size, in mm, as 32-48");
+  expect_refused(
+      bed + "layer 0.3 48-32\n",
+      ", line 6: layer is '0.3 48-32'; allowed: a number from 1e-06 to 100000 [m], and behind it "
+      "nothing, the smallest and the largest size, in mm, as 32-48, or relative_density and a number "
+      "from 0 to 1");
+  expect_refused(bed + "layer 0.3 relative_density 2\n",
+                 ", line 6: layer is '0.3 relative_density 2'; allowed: a number from ");
+  expect_refused(bed + "layer 0.3 relative_density 1\nlayer 0.3\nscene a\n",
+                 ", line 8: scene is 'a'; allowed: relative_density of all layers, or of none");
+  expect_refused(bed + "layer 0.3 relative_density 1\nradius_min 0.01\nscene a\n",
+                 ", line 8: scene is 'a'; allowed: relative_density of layers without sizes of their own");
+  for (const char *spot : {"0", "0.1 0.1", "0 x", "1 nan"})
+    expect_refused(bed + "spot " + spot + "\n",
+                   std::string(", line 6: spot is '") + spot +
+                       "'; allowed: FROM TO, m from the middle of the box, in the order of the way");
+  expect_refused(bed + "spot 0 0.1\nspot 0 0.2\n", ", line 7: spot is '0 0.2'; allowed: FROM TO");
+  for (const char *spot : {"0 5", "0 0.01"})
+    expect_refused(bed + "layer 0.3\nspot " + spot + "\nscene a\n",
+                   ", line 8: scene is 'a'; allowed: a spot in the width of a bed of layers");
   expect_refused(bed + "layer 0.3 16 24\n", ", line 6: layer is '0.3 16 24'; allowed: a number from ");
   expect_refused(bed + "layer thick\n", ", line 6: layer is 'thick'; allowed: a number from ");
   expect_refused(bed + "layer 0\n", ", line 6: layer is '0'; allowed: a number from ");
@@ -336,6 +377,7 @@ TEST(PlansOfTheProject, AreCompleteAndHaveTheResultsBesideThem) {
   EXPECT_EQ(runs("box"), 3U * 6U + 10U * 3U);
   EXPECT_EQ(runs("suction"), 9U * 5U);
   EXPECT_EQ(runs("penetration"), 6U * 3U);
+  EXPECT_EQ(runs("drive"), 3U * 5U + 14U * 3U);
   for (const char *study : {"fidelity", "box", "friction", "stiffness", "damping", "scatter"}) {
     const Plan plan = plan_of(study);
     EXPECT_TRUE(plan.can_be_scaled()) << study;

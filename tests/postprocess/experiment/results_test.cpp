@@ -105,10 +105,12 @@ TEST(Quantities, SharesOfTheHeatOfABedAddUpToOne) {
   EXPECT_THROW(values(plain, "", 1.0), std::runtime_error);
 }
 
-TEST(Quantities, OfAnyTableAreAColumnInFiveWays) {
+TEST(Quantities, OfAnyTableAreAColumnInSixWays) {
   const post::TemporaryFolder temporary(testing::TempDir(), "quantities");
   post::write_files({{temporary.path() / "out.csv", "t,gap\n0,7\n1,-2\n2,4\n3,1\n"},
                      {temporary.path() / "one.csv", "t,gap\n0,7\n"},
+                     {temporary.path() / "holes.csv", "t,gap\n0,\n1,-2\n2,4\n3,\n"},
+                     {temporary.path() / "empty.csv", "t,gap\n0,\n1,\n"},
                      {temporary.path() / "cut.csv", "t,gap\n0,7\n1,123"}}); // by a kill: of 1234.5
   const auto value = [&](const char *way, const char *file) {
     return post::measured({post::column_quantity("gap", "m", way, file, "gap")}, temporary.path(), 1.0).at(0);
@@ -118,6 +120,10 @@ TEST(Quantities, OfAnyTableAreAColumnInFiveWays) {
   EXPECT_EQ(value("largest", "out.csv"), 7.0);
   EXPECT_EQ(value("smallest", "out.csv"), -2.0);
   EXPECT_EQ(value("per_row", "out.csv"), 1.5); // from -2 to 1 in two rows
+  EXPECT_EQ(value("gain", "out.csv"), -6.0);
+  EXPECT_EQ(value("gain", "holes.csv"), 6.0); // an empty cell is a value that is not known
+  EXPECT_EQ(value("last", "holes.csv"), 4.0);
+  EXPECT_TRUE(std::isnan(value("last", "empty.csv")));
   EXPECT_EQ(value("last", "one.csv"), 7.0);
   EXPECT_EQ(value("last", "cut.csv"), 7.0);
   EXPECT_THROW(value("mean", "one.csv"), std::runtime_error);
