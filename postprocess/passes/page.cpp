@@ -343,10 +343,12 @@ std::string answer_of(const Results &results) {
       last(phi) < first(phi) ? (passes == 1 ? "loosens" : "loosen") : (passes == 1 ? "compacts" : "compact"),
       first([layer](const PassValues &pass) { return pass.soil.thickness[layer]; }), first(phi), last(phi));
   const double degree = last([layer](const PassValues &pass) { return pass.degree[layer]; });
-  if (std::isfinite(degree))
-    text += fmt::format(
-        " and inside to a degree of compaction of {:.1f} % (relative density {:.0f} %)", 100.0 * degree,
-        100.0 * last([layer](const PassValues &pass) { return pass.relative_density[layer]; }));
+  if (std::isfinite(degree)) {
+    const double relative = last([layer](const PassValues &pass) { return pass.relative_density[layer]; });
+    text += fmt::format(" and inside to a degree of compaction of {:.1f} % (relative density {:.0f} %{})",
+                        100.0 * degree, 100.0 * relative,
+                        relative < 0.0 ? ", looser than the loosest packing of dry soil" : "");
+  }
   text += "; " + level_words(results, layer);
   const double settlement = last([](const PassValues &pass) { return pass.settlement; });
   const double compaction = last([](const PassValues &pass) { return pass.compaction; });

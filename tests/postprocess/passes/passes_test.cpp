@@ -19,6 +19,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -365,6 +366,11 @@ TEST_F(Passes, AnswersInOneSentenceOnAPage) {
   for (const char *name :
        {"passes.csv", "way.csv", "surface.csv", "depth.csv", "acceptance.csv", "variogram.csv"})
     EXPECT_TRUE(fs::exists(folder_ / "made/out" / name)) << name;
+  // A relative density below 0 says what it means.
+  EXPECT_EQ(answer.find("looser than the loosest packing"), std::string::npos);
+  const fs::path parameters = folder_ / "run/parameters.csv";
+  write_files({{parameters, std::regex_replace(read_text(parameters), std::regex("0.9,0.9"), "0.21,0.21")}});
+  EXPECT_TRUE(contains(passes({"run"}).output, {"%, looser than the loosest packing of dry soil)"}));
 }
 
 // CMV is 30, 60 and 90 in all five cells of the three passes.
