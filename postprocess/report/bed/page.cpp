@@ -189,37 +189,23 @@ std::vector<PageTable> bed_tables(const std::vector<BedResult> &beds) {
 
 std::string bed_page(const ReportContent &content) {
   const Answer answer = bed_answer(content.groups);
-  std::vector<PageLink> links = {{"index.html", "Report of the runs"}, {"#answer", "Answer"}};
-  std::string s = answer_html(answer.sentences, answer.verdict, drawing_html(Drawing::bed)) +
-                  key_figures_html(content.bed_keys);
-  int number = 0;
-  const auto begin = [&](const std::string &id, const std::string &title) {
-    const std::string numbered = fmt::format("{}. {}", ++number, title);
-    links.push_back({"#" + id, numbered});
-    s += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", id, html_escaped(numbered));
-  };
-  begin("numbers", "Numbers");
-  s += "<p>Drum and frame stand on a bed of balls and move up and down only; the exciter acts on the drum. "
-       "In two dimensions masses, forces and energies are per metre perpendicular to the picture. Condition "
-       "A dashed, condition B (no-tension limit) solid. Nothing here is compared with a measurement.</p>\n";
+  ReportPage page({{"index.html", "Report of the runs"}, {"#answer", "Answer"}},
+                  answer_html(answer.sentences, answer.verdict, drawing_html(Drawing::bed)) +
+                      key_figures_html(content.bed_keys));
+  std::string numbers =
+      "<p>Drum and frame stand on a bed of balls and move up and down only; the exciter acts on the drum. "
+      "In two dimensions masses, forces and energies are per metre perpendicular to the picture. Condition "
+      "A dashed, condition B (no-tension limit) solid. Nothing here is compared with a measurement.</p>\n";
   for (const PageTable &table : content.bed_tables)
-    s += table_html(table);
-  s += "</section>\n";
-  for (std::size_t i = 0; i < content.groups.size(); ++i) {
-    begin(bed_section(i), title_of(content.groups[i]));
-    s += fmt::format("<p>{}</p>\n", html_escaped(words_of(content.groups[i])));
-    s += section_html(content.bed_figures, bed_section(i)) + "</section>\n";
-  }
-  begin("runs", "Commands and versions");
-  std::vector<std::pair<std::string, std::string>> commands;
-  commands.reserve(content.beds.size());
-  for (const BedResult &result : content.beds)
-    commands.emplace_back(result.run.name, result.run.text("command"));
-  s += commands_html(commands) +
-       fmt::format(
-           "<h3 id=\"versions\">Versions</h3>\n<p>Report by drumlin {}; figures by {}.</p>\n</section>\n",
-           html_escaped(content.versions.drumlin), html_escaped(content.versions.gnuplot));
-  return html_page("Roller on a bed of balls", made_line(content.versions), links, s);
+    numbers += table_html(table);
+  page.section("numbers", "Numbers", numbers);
+  for (std::size_t i = 0; i < content.groups.size(); ++i)
+    page.section(bed_section(i), title_of(content.groups[i]),
+                 fmt::format("<p>{}</p>\n", html_escaped(words_of(content.groups[i]))) +
+                     section_html(content.bed_figures, bed_section(i)));
+  page.section("runs", "Commands and versions",
+               commands_and_versions(content.beds, report_programs(content.versions)));
+  return page.html("Roller on a bed of balls", content.versions);
 }
 
 } // namespace drumlin::post

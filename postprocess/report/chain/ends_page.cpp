@@ -501,34 +501,20 @@ Answer ends_answer(const std::vector<EndsResult> &results) {
 
 std::string ends_page(const ReportContent &content) {
   const Answer answer = ends_answer(content.ends);
-  std::vector<PageLink> links = {{"index.html", "Report of the runs"}, {"#answer", "Answer"}};
-  std::string s = answer_html(answer.sentences, answer.verdict, drawing_html(Drawing::two_ends)) +
-                  key_figures_html(content.ends_keys);
-  int number = 0;
-  const auto begin = [&](const std::string &id, const std::string &title) {
-    const std::string numbered = fmt::format("{}. {}", ++number, title);
-    links.push_back({"#" + id, numbered});
-    s += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", id, html_escaped(numbered));
-  };
-  begin("numbers", "Numbers");
-  s += "<p>Drum and frame move up and down and tilt about the way of travel, on contacts along the width of "
-       "the drum, each of which is made and broken by itself. A sensor at one end then shows another soil "
-       "than one in the middle, and after a turn round that of the other end.</p>\n";
+  ReportPage page({{"index.html", "Report of the runs"}, {"#answer", "Answer"}},
+                  answer_html(answer.sentences, answer.verdict, drawing_html(Drawing::two_ends)) +
+                      key_figures_html(content.ends_keys));
+  std::string numbers =
+      "<p>Drum and frame move up and down and tilt about the way of travel, on contacts along the width of "
+      "the drum, each of which is made and broken by itself. A sensor at one end then shows another soil "
+      "than one in the middle, and after a turn round that of the other end.</p>\n";
   for (const PageTable &table : content.tables)
-    if (table.section == section) s += table_html(table);
-  s += "</section>\n";
-  begin(section, "Motion and forces of both ends");
-  s += section_html(content.ends_figures, section) + "</section>\n";
-  begin("runs", "Commands and versions");
-  std::vector<std::pair<std::string, std::string>> commands;
-  commands.reserve(content.ends.size());
-  for (const EndsResult &result : content.ends)
-    commands.emplace_back(result.run.name, result.run.text("command"));
-  s += commands_html(commands) +
-       fmt::format(
-           "<h3 id=\"versions\">Versions</h3>\n<p>Report by drumlin {}; figures by {}.</p>\n</section>\n",
-           html_escaped(content.versions.drumlin), html_escaped(content.versions.gnuplot));
-  return html_page("A drum with two ends", made_line(content.versions), links, s);
+    if (table.section == section) numbers += table_html(table);
+  page.section("numbers", "Numbers", numbers);
+  page.section(section, "Motion and forces of both ends", section_html(content.ends_figures, section));
+  page.section("runs", "Commands and versions",
+               commands_and_versions(content.ends, report_programs(content.versions)));
+  return page.html("A drum with two ends", content.versions);
 }
 
 } // namespace drumlin::post

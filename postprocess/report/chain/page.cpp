@@ -102,18 +102,6 @@ std::string studies_html(const std::vector<StudyLink> &studies) {
   return s + "</ul>\n";
 }
 
-std::string versions_html(const ReportContent &content) {
-  std::vector<std::pair<std::string, std::string>> commands;
-  commands.reserve(content.results.runs.size());
-  for (const RunResult &result : content.results.runs)
-    commands.emplace_back(result.run.name, result.run.text("command"));
-  const ReportVersions &versions = content.versions;
-  return (commands.empty() ? "" : commands_html(commands)) + "<h3 id=\"versions\">Versions</h3>\n<p>" +
-         html_escaped(fmt::format("Report by drumlin {}; reference solutions by {}; figures by {}.",
-                                  versions.drumlin, versions.direct_solver, versions.gnuplot)) +
-         "</p>\n";
-}
-
 /// Folders that are not part of the report, and why.
 std::string left_out_html(const std::vector<LeftOut> &folders) {
   if (folders.empty()) return {};
@@ -133,31 +121,47 @@ std::string contents_of(const Section &section, const ReportContent &content) {
   for (const PageTable &table : content.tables)
     if (table.section == id) s += table_html(table);
   if (id == "studies") s += studies_html(content.studies);
-  if (id == "runs") s += left_out_html(content.left_out) + versions_html(content);
+  if (id == "runs")
+    s += left_out_html(content.left_out) +
+         commands_and_versions(content.results.runs,
+                               fmt::format("Report by drumlin {}; reference solutions by {}; figures by {}.",
+                                           content.versions.drumlin, content.versions.direct_solver,
+                                           content.versions.gnuplot));
   return s.empty() ? "<p class=\"absent\">The given runs have nothing for this section.</p>\n" : s;
 }
 
 } // namespace
 
-std::string made_line(const ReportVersions &versions) {
-  return fmt::format("Made on {} by drumlin {}.", versions.made_at, versions.drumlin);
+ReportPage::ReportPage(std::vector<PageLink> links, std::string opening)
+    : links_(std::move(links)), body_(std::move(opening)) {}
+
+void ReportPage::section(const std::string &id, const std::string &title, const std::string &content) {
+  const std::string numbered = fmt::format("{}. {}", ++number_, title);
+  links_.push_back({"#" + id, numbered});
+  body_ +=
+      fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, html_escaped(numbered), content);
+}
+
+std::string ReportPage::html(const std::string &title, const ReportVersions &versions) const {
+  return html_page(title, fmt::format("Made on {} by drumlin {}.", versions.made_at, versions.drumlin),
+                   links_, body_);
+}
+
+std::string report_programs(const ReportVersions &versions) {
+  return fmt::format("Report by drumlin {}; figures by {}.", versions.drumlin, versions.gnuplot);
 }
 
 std::string report_page(const ReportContent &content) {
-  std::vector<PageLink> links = {{"#answer", "Answer"}};
-  std::string s = opening_html(content);
-  int number = 0;
+  ReportPage page({{"#answer", "Answer"}}, opening_html(content));
   for (const Section &section : sections) {
     if (!belongs(section.id, content)) continue;
-    const std::string title = fmt::format("{}. {}", ++number, section.title);
-    links.push_back({fmt::format("#{}", section.id), title});
-    s += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", section.id, html_escaped(title));
-    if (section.words[0] != '\0') s += fmt::format("<p>{}</p>\n", html_escaped(section.words));
-    s += contents_of(section, content) + "</section>\n";
+    const std::string words =
+        section.words[0] != '\0' ? fmt::format("<p>{}</p>\n", html_escaped(section.words)) : "";
+    page.section(section.id, section.title, words + contents_of(section, content));
   }
-  if (!content.beds.empty()) links.push_back({"bed.html", "Page on the beds"});
-  if (!content.ends.empty()) links.push_back({"ends.html", "Page on two ends"});
-  return html_page("Roller on soil: report of the runs", made_line(content.versions), links, s);
+  if (!content.beds.empty()) page.link({"bed.html", "Page on the beds"});
+  if (!content.ends.empty()) page.link({"ends.html", "Page on two ends"});
+  return page.html("Roller on soil: report of the runs", content.versions);
 }
 
 } // namespace drumlin::post
