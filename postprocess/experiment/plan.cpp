@@ -586,6 +586,7 @@ std::string Plan::copy() const {
 bool Plan::can_be_scaled() const {
   return std::all_of(scenes.begin(), scenes.end(), [](const Scene &scene) {
     return scene.bed && scene.bed->packing.dimensions() == 2 && scene.stiffness > 0.0 &&
+           value_of(scene, "place").empty() &&
            std::none_of(roller_variables.begin(), roller_variables.end(),
                         [&scene](const char *name) { return value_of(scene, name).empty(); });
   });

@@ -28,8 +28,8 @@ struct Comparison {
 };
 
 /// What Plan::can_be_scaled() asks for, in words.
-constexpr const char *what_can_be_scaled =
-    "with a plan of beds in the plane that has stiffness and all of r2, r3, m2, m3, k23, c23, Fw";
+constexpr const char *what_can_be_scaled = "with a plan of beds in the plane that has stiffness and all of "
+                                           "r2, r3, m2, m3, k23, c23, Fw, but no place";
 
 struct Plan {
   std::string title;
@@ -47,12 +47,12 @@ struct Plan {
   /// \pre there is one of that name
   const Scene &scene(const std::string &name) const;
   /// Whether it can have another number of balls: all scenes on beds in the plane, with the roller's
-  /// variables given.
+  /// variables given, and a roller that shakes in the middle.
   bool can_be_scaled() const;
   /// The plan with so many balls in its first scene. \pre can_be_scaled()
   Plan with_balls(int balls) const;
-  /// Few runs: two seeds of the first three scenes, with beds of 150 balls and four cycles where it can have
-  /// them.
+  /// Few runs: two seeds of the first three scenes, with beds of 150 balls, four cycles and two passes where
+  /// it can have them.
   Plan quick() const;
 };
 

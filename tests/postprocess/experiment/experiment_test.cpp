@@ -247,7 +247,7 @@ TEST(OwnStudy, OfABadPlanWritesNothing) {
   post::write_files({{scratch / "own.plan", own_plan}});
   expect_refused({"own.plan", "--balls", "150"},
                  "--balls is '150'; allowed: with a plan of beds in the plane that has stiffness and all of "
-                 "r2, r3, m2, m3, k23, c23, Fw");
+                 "r2, r3, m2, m3, k23, c23, Fw, but no place");
 }
 
 TEST(BedStudy, ContinuesWhereItWasInterruptedAndABedThatFailsStopsNoOther) {

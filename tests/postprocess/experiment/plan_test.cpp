@@ -176,6 +176,11 @@ TEST_F(PlanTest, GivesEachDeckOfABedItsVariables) {
       "stiffness 1e8\nscene one\nscene other\nfrom one\nset_placed m3 50\nset_run Fw 10\nmore_steps 2\n");
   EXPECT_EQ(post::soil_text(shared.scenes[0]), post::soil_text(shared.scenes[1]));
   EXPECT_FALSE(shared.can_be_scaled()); // the roller's other variables are those of the deck
+  const std::string whole =
+      "title T\nquantity force\ndeck bed/in.drive\nballs 100\nwidth 0.4\nstiffness 1e8\n"
+      "set r2 1\nset r3 1\nset m2 1\nset m3 1\nset k23 1\nset c23 1\nset Fw 1\n";
+  EXPECT_TRUE(read(whole + "scene one\n").can_be_scaled());
+  EXPECT_FALSE(read(whole + "scene one\nset_placed place -0.1\n").can_be_scaled()); // nor is its way
 }
 
 // Contacts that yield are stiffer in unloading, and layers of finer discs need the steps of the finest.
