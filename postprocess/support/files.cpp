@@ -246,12 +246,15 @@ void append_text(const fs::path &file, const std::string &text) {
 
 FolderLock::FolderLock(const fs::path &folder)
     : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  removed_ = file_ < 0 && errno == ENOENT;
   if (file_ < 0) return;
   struct stat held = {}, now = {};
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0)
     of_another_ = errno == EWOULDBLOCK;
   else if (::fstat(file_, &held) == 0 && ::stat(folder.c_str(), &now) == 0 && held.st_ino == now.st_ino)
-    return; // else another process has removed the folder meanwhile, and may have made it again
+    return;
+  else
+    removed_ = true;
   ::close(std::exchange(file_, -1));
 }
 
@@ -260,11 +263,12 @@ FolderLock::~FolderLock() {
 }
 
 FolderLock::FolderLock(FolderLock &&other) noexcept
-    : file_(std::exchange(other.file_, -1)), of_another_(other.of_another_) {}
+    : file_(std::exchange(other.file_, -1)), of_another_(other.of_another_), removed_(other.removed_) {}
 
 FolderLock &FolderLock::operator=(FolderLock &&other) noexcept {
   std::swap(file_, other.file_);
   std::swap(of_another_, other.of_another_);
+  std::swap(removed_, other.removed_);
   return *this;
 }
 
@@ -278,12 +282,16 @@ TemporaryFolder::TemporaryFolder(const fs::path &parent, const std::string &pref
   std::error_code ignored;
   for (const fs::path &earlier : numbered(parent, prefix))
     if (const FolderLock lock(earlier); lock.held()) fs::remove_all(earlier, ignored);
-  // Between making and locking it, a process that starts now may take it for the folder of a killed one.
-  for (int number = 0; path_.empty() || !fs::exists(path_); ++number) {
+  // Between making and locking it, a process or thread that starts now may take it for the folder of a killed
+  // one and remove it, and then make one of the same name.
+  for (int number = 0; path_.empty(); ++number) {
     path_ = parent / fmt::format("{}{}.{}", prefix, ::getpid(), number);
-    const bool made = fs::create_directory(path_);
+    std::error_code error;
+    const bool made = fs::create_directory(path_, error);
+    if (error && error != std::errc::file_exists)
+      throw fs::filesystem_error("cannot create directory", path_, error);
     if (made) lock_ = FolderLock(path_);
-    if (!made || lock_.of_another()) path_.clear(); // the other process will remove it
+    if (!made || lock_.of_another() || lock_.removed()) path_.clear();
   }
 }
 

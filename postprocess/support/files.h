@@ -60,10 +60,12 @@ public:
   bool held() const { return file_ >= 0; }
   /// Whether it is not held because another object or process holds the folder.
   bool of_another() const { return of_another_; }
+  /// Whether it is not held because the folder has been removed, and perhaps made again by another.
+  bool removed() const { return removed_; }
 
 private:
   int file_ = -1;
-  bool of_another_ = false;
+  bool of_another_ = false, removed_ = false;
 };
 
 /// Holds a folder of results. Throws UsageError if another call writes into it.

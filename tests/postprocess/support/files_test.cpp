@@ -14,11 +14,14 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 namespace drumlin::test {
@@ -253,6 +256,28 @@ TEST_F(FullDisk, ARowThatDoesNotArriveIsAnError) {
   };
   EXPECT_EXIT(child(), ::testing::ExitedWithCode(0), "");
   EXPECT_EQ(read_text(folder_ / "rows.csv"), "a,b\n1,2\n");
+}
+
+// Threads that make theirs in one place at the same time: each has a folder of its own, which no other takes
+// for that of a killed process.
+TEST(TemporaryFolders, OfThreadsAreTheirOwn) {
+  const post::TemporaryFolder parent(testing::TempDir(), "threads.");
+  std::atomic<int> shared{0};
+  std::vector<std::thread> threads;
+  for (int thread = 0; thread < 4; ++thread)
+    threads.emplace_back([&parent, &shared] {
+      for (int i = 0; i < 500; ++i) {
+        const post::TemporaryFolder mine(parent.path(), "made.");
+        std::error_code lost; // with the folder
+        if (!fs::create_directory(mine.path() / "by_me", lost)) ++shared;
+        std::this_thread::yield();
+        if (!fs::exists(mine.path() / "by_me")) ++shared;
+      }
+    });
+  for (std::thread &thread : threads)
+    thread.join();
+  EXPECT_EQ(shared, 0);
+  EXPECT_TRUE(fs::is_empty(parent.path()));
 }
 
 } // namespace
