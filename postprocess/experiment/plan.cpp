@@ -421,18 +421,18 @@ private:
     const std::vector<std::string> words = words_of(value_);
     const std::optional<double> thickness = any_number_from_text(words[0]);
     const bool has_density = words.size() == 3 && words[1] == "relative_density";
-    const std::optional<double> density = has_density ? any_number_from_text(words[2]) : std::nullopt;
+    const double density = has_density ? any_number_from_text(words[2]).value_or(NAN) : 0.0;
     const std::optional<SieveCurve> sizes =
         words.size() == 2 ? curve_between(words[1]) : std::optional<SieveCurve>();
     if (!thickness || !PackingOptions::length_range.holds(*thickness) ||
-        (words.size() > 1 && !sizes && !density) || (density && !(*density >= 0.0 && *density <= 1.0)))
+        (words.size() > 1 && !sizes && !has_density) || !(density >= 0.0 && density <= 1.0))
       refuse(PackingOptions::length_range.words() +
              ", and behind it nothing, the smallest and the largest size, in mm, as 32-48, or "
              "relative_density and a number from 0 to 1");
     BedLayer layer{{}, *thickness};
     layer.packing.sieve = sizes;
     if (sizes) layer.packing.sieve_name = words[1];
-    if (density) layer.pouring = Pouring{*density, 0.0, 0.0, 0.0, 0.0, 0.0}; // the rest in check_bed()
+    if (has_density) layer.pouring = Pouring{density, 0.0, 0.0, 0.0, 0.0, 0.0}; // the rest in check_bed()
     bed().layers.push_back(layer);
   }
   void take_spot() {
