@@ -263,8 +263,10 @@ TEST_F(FullDisk, ARowThatDoesNotArriveIsAnError) {
 TEST(TemporaryFolders, OfThreadsAreTheirOwn) {
   const post::TemporaryFolder parent(testing::TempDir(), "threads.");
   std::atomic<int> shared{0};
+  constexpr std::size_t count = 4;
   std::vector<std::thread> threads;
-  for (int thread = 0; thread < 4; ++thread)
+  threads.reserve(count);
+  while (threads.size() < count)
     threads.emplace_back([&parent, &shared] {
       for (int i = 0; i < 500; ++i) {
         const post::TemporaryFolder mine(parent.path(), "made.");
