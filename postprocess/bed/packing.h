@@ -66,8 +66,8 @@ double default_share(int dimensions);
 /// cut would be above half of the largest size: hardly a distribution is left of the curve then.
 double default_cut(const SieveCurve &curve, const PackingOptions &options);
 
-/// The file in inputs/ with the loosest and the densest packing of balls of this mix, of which the ratio of
-/// sizes counts; nothing if they were not measured.
+/// The file in inputs/ with the loosest and the densest packing that were measured for balls of this grading
+/// and this ratio of largest to smallest radius; nothing if they were not measured.
 std::optional<std::string> packings_file(const PackingOptions &box);
 
 /// A layer of a bed of several, whose balls fall on the layers below when these have come to rest.

@@ -23,7 +23,7 @@ struct WaySection {
 
   bool constant() const { return k_rate == 0.0 && D_rate == 0.0 && k_left_rate == 0.0; }
   double place(double time) const { return s + velocity * (time - begin); }
-  /// The rest of the section, from this time on.
+  /// The part of this section that the roller passes after `time`.
   WaySection from(double time) const;
 };
 

@@ -162,8 +162,8 @@ void make_parent_of(const fs::path &place, const Arguments &arguments) {
   }
 }
 
-/// Writes page and tables, all or none of them, and prints the first lines of the answer. \param page writes
-/// the page into a folder
+/// Writes the page and the tables, either all or none of them, and prints the answer. \param page a function
+/// that writes the page into a folder
 template <class Found, class Page>
 void publish(const Arguments &arguments, const fs::path &place, const Record &record, const Found &found,
              const Page &page) {

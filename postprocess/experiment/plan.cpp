@@ -432,7 +432,8 @@ private:
     BedLayer layer{{}, *thickness};
     layer.packing.sieve = sizes;
     if (sizes) layer.packing.sieve_name = words[1];
-    if (has_density) layer.pouring = Pouring{density, 0.0, 0.0, 0.0, 0.0, 0.0}; // the rest in check_bed()
+    if (has_density)
+      layer.pouring = Pouring{density, 0.0, 0.0, 0.0, 0.0, 0.0}; // check_bed() looks up how to pour it
     bed().layers.push_back(layer);
   }
   void take_spot() {

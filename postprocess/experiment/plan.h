@@ -46,13 +46,13 @@ struct Plan {
   std::string copy() const;
   /// \pre there is one of that name
   const Scene &scene(const std::string &name) const;
-  /// Whether it can have another number of balls: all scenes on beds in the plane, with the roller's
-  /// variables given, and a roller that shakes in the middle.
+  /// Whether its beds can be made smaller or larger: all are in the plane, all variables of the roller are
+  /// given, and the roller does not drive.
   bool can_be_scaled() const;
   /// The plan with so many balls in its first scene. \pre can_be_scaled()
   Plan with_balls(int balls) const;
-  /// Few runs: two seeds of the first three scenes, with beds of 150 balls, four cycles and two passes where
-  /// it can have them.
+  /// The plan of a trial run: two seeds of its first three scenes, a roller that drives makes two passes, one
+  /// that shakes four cycles, and beds have 150 balls if can_be_scaled().
   Plan quick() const;
 };
 

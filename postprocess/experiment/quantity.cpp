@@ -67,7 +67,7 @@ public:
   }
 
 private:
-  /// Writes what `drumlin passes` does of a roller that has driven, if a table of that is asked for.
+  /// If `name` is a table of `drumlin passes`, measures the passes of this run and writes all these tables.
   void measure_passes_for(const std::string &name) const {
     constexpr std::array tables = {"passes.csv", "way.csv", "surface.csv", "depth.csv"};
     if (std::find(tables.begin(), tables.end(), name) == tables.end() ||
@@ -122,7 +122,7 @@ const std::array<ColumnWay, 6> ways = {
       [](const std::vector<double> &values) { return *std::min_element(values.begin(), values.end()); }},
      {"per_row", 2, &per_row_of}}};
 
-/// The numbers of a column; an empty cell is a value that is not known.
+/// The numbers of a column. Empty cells are left out: the value of that row is not known.
 std::vector<double> known_numbers(const Table &table, const std::string &column) {
   const std::vector<std::string> cells = table.text(column);
   std::vector<double> numbers;

@@ -31,12 +31,12 @@ const std::vector<Quantity> &bed_quantities();
 /// The one of that name; nullptr if there is none.
 const Quantity *bed_quantity(const std::string &name);
 
-/// How a column of a table becomes one number: last, gain (last less first), mean, largest, smallest,
-/// per_row.
+/// The ways to make one number of a column: last, gain (last less first), mean, largest, smallest, per_row.
 std::vector<const char *> column_ways();
-/// A quantity of any deck: a column of a CSV file that it writes, without empty cells. `mean` and `per_row`,
-/// the mean change from row to row, are those of the second half of the rows. Of a roller that has driven the
-/// tables of `drumlin passes` are made if the deck wrote none of that name. \param way one of column_ways()
+/// A quantity of any deck: one number made of a column of a CSV file that the deck writes. Empty cells are
+/// left out. `mean`, and `per_row`, the mean change from one row to the next, use the second half of the
+/// rows. The file may also be one of the tables of `drumlin passes`; it is made from the run if the deck has
+/// not written a file of that name. \param way one of column_ways()
 Quantity column_quantity(const std::string &name, const std::string &unit, const std::string &way,
                          const std::string &file, const std::string &column);
 

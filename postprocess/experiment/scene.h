@@ -33,7 +33,7 @@ struct Setting {
 struct SoilBed {
   PackingOptions packing;
   std::vector<BedLayer> layers = {}; ///< the lowest first, instead of the packing's balls; empty: one layer
-  std::vector<Spot> spots = {};      ///< of the lowest layer, in the order of the way
+  std::vector<Spot> spots = {};      ///< parts of the lowest layer with contacts of their own, left to right
   std::string ratio = "1";           ///< unbalanced force at which it counts as at rest: see in.settle
 
   int balls() const; ///< of all layers

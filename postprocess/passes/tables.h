@@ -23,9 +23,9 @@ std::vector<PassColumn> pass_columns(std::size_t layers);
 /// row of each pass that at least one run has, and the number of runs that have it.
 /// \pre runs of equal layers
 std::string passes_csv(const std::vector<PassesResult> &results);
-/// The tables of a run in a folder: passes.csv, a row before the first pass and one after each; way.csv, a
-/// row for each cell and pass; surface.csv, heights along the way, a column for each pass; depth.csv, a row
-/// for each slice and pass.
+/// The four tables of a run, as files in `folder`. passes.csv has a row for the state before the first pass
+/// and for that after each; way.csv a row for each pass and cell of the way; surface.csv the height along the
+/// way, a column for each pass; depth.csv a row for each pass and layer of equal depth.
 std::vector<FileText> pass_tables(const std::filesystem::path &folder, const PassesResult &result);
 
 /// The number of passes that the longest of the runs has.

@@ -188,10 +188,7 @@ std::vector<PageTable> bed_tables(const std::vector<BedResult> &beds) {
 }
 
 std::string bed_page(const ReportContent &content) {
-  const Answer answer = bed_answer(content.groups);
-  ReportPage page({{"index.html", "Report of the runs"}, {"#answer", "Answer"}},
-                  answer_html(answer.sentences, answer.verdict, drawing_html(Drawing::bed)) +
-                      key_figures_html(content.bed_keys));
+  ReportPage page = page_beside(bed_answer(content.groups), Drawing::bed, content.bed_keys);
   std::string numbers =
       "<p>Drum and frame stand on a bed of balls and move up and down only; the exciter acts on the drum. "
       "In two dimensions masses, forces and energies are per metre perpendicular to the picture. Condition "

@@ -500,10 +500,7 @@ Answer ends_answer(const std::vector<EndsResult> &results) {
 }
 
 std::string ends_page(const ReportContent &content) {
-  const Answer answer = ends_answer(content.ends);
-  ReportPage page({{"index.html", "Report of the runs"}, {"#answer", "Answer"}},
-                  answer_html(answer.sentences, answer.verdict, drawing_html(Drawing::two_ends)) +
-                      key_figures_html(content.ends_keys));
+  ReportPage page = page_beside(ends_answer(content.ends), Drawing::two_ends, content.ends_keys);
   std::string numbers =
       "<p>Drum and frame move up and down and tilt about the way of travel, on contacts along the width of "
       "the drum, each of which is made and broken by itself. A sensor at one end then shows another soil "

@@ -147,6 +147,11 @@ std::string ReportPage::html(const std::string &title, const ReportVersions &ver
                    links_, body_);
 }
 
+ReportPage page_beside(const Answer &answer, Drawing drawing, const std::vector<KeyFigure> &keys) {
+  return {{{"index.html", "Report of the runs"}, {"#answer", "Answer"}},
+          answer_html(answer.sentences, answer.verdict, drawing_html(drawing)) + key_figures_html(keys)};
+}
+
 std::string report_programs(const ReportVersions &versions) {
   return fmt::format("Report by drumlin {}; figures by {}.", versions.drumlin, versions.gnuplot);
 }

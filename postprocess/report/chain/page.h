@@ -4,7 +4,9 @@
 
 #include "report/content.h"
 
+#include "pages/drawing.h"
 #include "pages/html.h"
+#include "report/answer.h"
 
 #include <string>
 #include <utility>
@@ -12,7 +14,7 @@
 
 namespace drumlin::post {
 
-/// A page of the report: its opening, then numbered sections, which its list of links names.
+/// A page of the report: an opening, then numbered sections. The links at its top lead to them.
 class ReportPage {
 public:
   ReportPage(std::vector<PageLink> links, std::string opening);
@@ -28,8 +30,12 @@ private:
   int number_ = 0;
 };
 
-/// The commands that repeat the runs, and a line on the programs that made the report. \param programs
-/// "Report by ..."
+/// A page beside the first one, which it links: it opens with its answer, a drawing of the model and key
+/// figures.
+ReportPage page_beside(const Answer &answer, Drawing drawing, const std::vector<KeyFigure> &keys);
+
+/// The end of a page: the command of each run, and the programs and versions that made the page. \param
+/// programs a sentence such as that of report_programs()
 template <class Result>
 std::string commands_and_versions(const std::vector<Result> &results, const std::string &programs) {
   std::vector<std::pair<std::string, std::string>> commands;
@@ -39,7 +45,7 @@ std::string commands_and_versions(const std::vector<Result> &results, const std:
   return (commands.empty() ? "" : commands_html(commands)) + "<h3 id=\"versions\">Versions</h3>\n<p>" +
          html_escaped(programs) + "</p>\n";
 }
-/// The line of a report that has no reference solutions.
+/// "Report by drumlin VERSION; figures by gnuplot VERSION."
 std::string report_programs(const ReportVersions &versions);
 
 /// The page. Figures are expected at figures/NAME.svg and .png, data at data/NAME.csv, the pages on beds and

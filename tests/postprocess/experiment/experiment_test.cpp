@@ -332,7 +332,7 @@ TEST(BedStudy, RunsInBothEngines) {
     EXPECT_GT(force, 150.0 * 9.81) << std::get<0>(key);
 }
 
-// The same scene by hand: what `drumlin passes` writes of it is what the study has.
+// A study of a drive gives the numbers that its decks and `drumlin passes` give when they are run by hand.
 TEST(DriveStudy, MeasuresWhatPassesLeave) {
   const Scratch scratch;
   const Variables soil = {{"case", "loose"}}, roller = {{"m2", "100"},  {"m3", "50"},   {"r2", "0.1"},

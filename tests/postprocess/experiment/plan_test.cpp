@@ -204,7 +204,8 @@ TEST_F(PlanTest, MakesStepsForTheStiffestAndSmallestContacts) {
   EXPECT_NE(post::soil_text(layers), post::soil_text(plan.scene("plain")));
 }
 
-// Layers of a density are poured as `drumlin bed` pours them, and have as many balls; spots are soil, too.
+// A layer with relative_density is poured with the friction that gives this density. Scenes whose layers or
+// spots differ do not share their soil.
 TEST_F(PlanTest, PoursLayersOfADensityAndMakesSpots) {
   const Plan plan = read("title T\nquantity force\ndeck bed/in.drive\nwidth 2\nradius_min 0.024\n"
                          "radius_max 0.036\nlayer 0.4 relative_density 1\nlayer 0.3 relative_density 0\n"

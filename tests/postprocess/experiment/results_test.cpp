@@ -121,7 +121,7 @@ TEST(Quantities, OfAnyTableAreAColumnInSixWays) {
   EXPECT_EQ(value("smallest", "out.csv"), -2.0);
   EXPECT_EQ(value("per_row", "out.csv"), 1.5); // from -2 to 1 in two rows
   EXPECT_EQ(value("gain", "out.csv"), -6.0);
-  EXPECT_EQ(value("gain", "holes.csv"), 6.0); // an empty cell is a value that is not known
+  EXPECT_EQ(value("gain", "holes.csv"), 6.0); // empty cells are left out
   EXPECT_EQ(value("last", "holes.csv"), 4.0);
   EXPECT_TRUE(std::isnan(value("last", "empty.csv")));
   EXPECT_EQ(value("last", "one.csv"), 7.0);
