@@ -44,7 +44,7 @@ constexpr int most_balls = 1000000;
 struct Arguments {
   std::string name;
   std::optional<std::string> out, jobs, balls;
-  bool fresh = false, quick = false;
+  bool fresh = false, quick = false, keep = false;
 };
 
 /// The studies of the laboratory, which a build may not have.
@@ -145,7 +145,7 @@ void run_plan(const Arguments &arguments) {
     if (const std::string fault = engine_fault(engine_of(scene.deck)); !fault.empty())
       throw UsageError(fault);
   const ResumedFolder folder = open_study(options, settings_of(plan));
-  run_experiment(plan, options.out, jobs);
+  run_experiment(plan, options.out, jobs, arguments.keep);
 }
 
 void run_study(const Study &study, const Arguments &arguments) {
@@ -154,6 +154,7 @@ void run_study(const Study &study, const Arguments &arguments) {
   };
   refuse_given("--jobs", arguments.jobs);
   refuse_given("--balls", arguments.balls);
+  if (arguments.keep) throw UsageError("--keep is given; allowed: with a study that is a plan");
   const StudyOptions options = judged(arguments, study.name);
   keep_apart({}, {{"--out", options.out, true}});
   const ResumedFolder folder = open_study(options);
@@ -178,6 +179,9 @@ void add_study_command(CLI::App &app, Session &) {
       command, "--balls", "COUNT", arguments->balls,
       "of a plan of beds: balls of its first scene; box and roller are scaled with their root, the balls "
       "are not");
+  command->add_flag("--keep", arguments->keep,
+                    "of a plan: keep all files of the runs that this call makes, in runs/SCENE/SEED of the "
+                    "results");
   command->add_flag("--fresh", arguments->fresh, "forget the points of an earlier call");
   command->add_flag("--quick", arguments->quick, "few points: to see that it works");
   std::string footer =

@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -57,11 +58,19 @@ std::vector<Group> groups_of(const Plan &plan) {
   return groups;
 }
 
+/// Copies the files of a run into a folder, which appears when it has all of them.
+void keep_files(const fs::path &run, const fs::path &folder) {
+  fs::create_directories(folder.parent_path());
+  FolderInProgress kept(fs::absolute(folder));
+  fs::copy(run, kept.path(), fs::copy_options::recursive);
+  kept.publish();
+}
+
 class Runs {
 public:
-  Runs(const Plan &plan, const fs::path &out)
-      : plan_(plan), out_(out), groups_(groups_of(plan)), table_(out / results_name, result_rows()),
-        progress_(runs()) {}
+  Runs(const Plan &plan, const fs::path &out, bool keep)
+      : plan_(plan), out_(out), keep_(keep), groups_(groups_of(plan)),
+        table_(out / results_name, result_rows()), progress_(runs()) {}
 
   std::vector<std::string> make(int jobs) {
     for (const Group &group : groups_)
@@ -108,6 +117,7 @@ private:
       const std::unique_ptr<DeckRun> run = run_scene(scene, seed, out_, soil);
       const double width = scene.bed && scene.bed->packing.depth > 0.0 ? scene.bed->packing.depth : 1.0; // m
       const std::vector<double> values = measured(plan_.quantities, run->file(""), width);
+      if (keep_) keep_files(run->file(""), folder_of(scene) / std::to_string(seed));
       const std::lock_guard lock(mutex_);
       add(scene, seed, values, run->outcome().cpu_seconds);
       progress_.measured(what + words(values));
@@ -118,6 +128,15 @@ private:
       failures_.push_back(what + fault.what());
       progress_.measured(failures_.back());
     }
+  }
+
+  /// Begins with the number of the scene, since names that differ can be equal as names of folders.
+  fs::path folder_of(const Scene &scene) const {
+    std::string name = fmt::format("{}_{}", &scene - plan_.scenes.data() + 1, scene.name);
+    std::replace_if(
+        name.begin(), name.end(),
+        [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; }, '_');
+    return out_ / "runs" / name;
   }
 
   void add(const Scene &scene, int seed, const std::vector<double> &values, double cost) {
@@ -145,6 +164,7 @@ private:
 
   const Plan &plan_;
   fs::path out_;
+  bool keep_;
   std::vector<Group> groups_;
   std::mutex mutex_; // of table_, progress_ and failures_
   ResumedTable table_;
@@ -154,9 +174,9 @@ private:
 
 } // namespace
 
-void run_experiment(const Plan &plan, const fs::path &out, int jobs) {
+void run_experiment(const Plan &plan, const fs::path &out, int jobs, bool keep) {
   write_files({{out / plan_name, plan.copy()}});
-  const std::vector<std::string> failures = Runs(plan, out).make(jobs);
+  const std::vector<std::string> failures = Runs(plan, out, keep).make(jobs);
   write_experiment_page(out, plan, read_results(out, plan), failures);
   fmt::print("{}\n", (out / "index.html").string());
   if (!failures.empty())

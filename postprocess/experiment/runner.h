@@ -12,8 +12,9 @@ namespace drumlin::post {
 ///   beds/       restart files of the beds
 ///   runs.csv    values of each run, and its processor time
 ///   index.html  tables and figures
+///   runs/       with `keep`: all files of each run that is made, in a folder for each scene and seed
 /// A run that fails does not stop the others: the page names it, and std::runtime_error is thrown at the end.
 /// \param jobs runs at the same time
-void run_experiment(const Plan &plan, const std::filesystem::path &out, int jobs);
+void run_experiment(const Plan &plan, const std::filesystem::path &out, int jobs, bool keep);
 
 } // namespace drumlin::post

@@ -221,6 +221,7 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
       {"study fidelity --jobs ''", "--jobs is ''; allowed: "},
       {"study fidelity --out ''", "--out is ''; allowed: "},
       {"study meter --out LONG", "... (5000 characters)'; allowed: "},
+      {"study meter --keep", "--keep is given; allowed: with a study that is a plan"},
       {"study LONG", "... (5000 characters)'; allowed: "},
       {"demo --cycles 0", "--cycles is '0'; allowed: a whole number from 1 to 10000000"},
       {"demo --cycles ''", "--cycles is ''; allowed: "},

@@ -360,9 +360,9 @@ TEST(DriveStudy, MeasuresWhatPassesLeave) {
         "deck bed/in.drive\nwidth 1\nratio 1\n"
         "layer 0.25 relative_density 0.9\nlayer 0.15 relative_density 0.1\n" +
             lines("set", soil) + lines("set", roller) + "set_placed place -0.3\n" + lines("set_run", drive) +
-            "scene spot\nspot -0.1 0.1\nset k 1e8,1e8,5e7\n"}});
-  const Outcome study =
-      run_program({DRUMLIN_TOOLS, "study", "drive.plan", "--out", "out"}, {}, scratch.path(), 200.0);
+            "scene a/spot\nspot -0.1 0.1\nset k 1e8,1e8,5e7\n"}});
+  const Outcome study = run_program({DRUMLIN_TOOLS, "study", "drive.plan", "--out", "out", "--keep"}, {},
+                                    scratch.path(), 200.0);
   ASSERT_TRUE(study.ok()) << study.output;
   const Values values = values_in(scratch / "out");
   ASSERT_EQ(values.size(), 4U);
@@ -383,15 +383,17 @@ TEST(DriveStudy, MeasuresWhatPassesLeave) {
   run("bed/in.drive", post::joined(drive, {{"start", "roller"}, {"out", "B"}, {"place", "-0.3"}}));
   const Outcome passes = run_program({DRUMLIN_TOOLS, "passes", "B"}, {}, scratch.path(), 100.0);
   ASSERT_TRUE(passes.ok()) << passes.output;
+  EXPECT_EQ(post::read_text(scratch / "out/runs/1_a_spot/1/passes.csv"),
+            post::read_text(scratch / "B/passes.csv"));
   const post::Table table = post::read_table(scratch / "B/passes.csv");
   const std::vector<double> density = table.numbers("solid_fraction_2 [-]");
   ASSERT_EQ(density.size(), 3U);
-  EXPECT_EQ(values.at({"spot", 1, "gain"}), density[2] - density[0]);
-  EXPECT_GT(values.at({"spot", 1, "gain"}), 0.0);
-  EXPECT_EQ(values.at({"spot", 1, "settlement"}), table.numbers("settlement [m]")[2]);
-  EXPECT_EQ(values.at({"spot", 1, "CMV"}), post::number_from_text(table.text("CMV [-]")[2]));
+  EXPECT_EQ(values.at({"a/spot", 1, "gain"}), density[2] - density[0]);
+  EXPECT_GT(values.at({"a/spot", 1, "gain"}), 0.0);
+  EXPECT_EQ(values.at({"a/spot", 1, "settlement"}), table.numbers("settlement [m]")[2]);
+  EXPECT_EQ(values.at({"a/spot", 1, "CMV"}), post::number_from_text(table.text("CMV [-]")[2]));
   const std::vector<double> forces = post::read_table(scratch / "B/way.csv").numbers("peak_force [N]");
-  EXPECT_EQ(values.at({"spot", 1, "cell"}), *std::max_element(forces.begin(), forces.end()));
+  EXPECT_EQ(values.at({"a/spot", 1, "cell"}), *std::max_element(forces.begin(), forces.end()));
 }
 
 // One seed of each scene: no deck refuses a variable that a plan gives it.
