@@ -352,9 +352,12 @@ std::string answer_of(const Results &results) {
   text += "; " + level_words(results, layer);
   const double settlement = last([](const PassValues &pass) { return pass.settlement; });
   const double compaction = last([](const PassValues &pass) { return pass.compaction; });
-  text += fmt::format("; of {:.1f} mm of settlement compaction of all layers makes {:.1f} mm and soil pushed "
-                      "along or aside {:.1f} mm",
-                      1e3 * settlement, 1e3 * compaction, 1e3 * (settlement - compaction));
+  const double pushed = settlement - compaction;
+  text += fmt::format("; the surface {} by {:.1f} mm: all layers together {} by {:.1f} mm, and soil that is "
+                      "pushed {} the measured part makes {:.1f} mm",
+                      settlement < 0.0 ? "rises" : "sinks", 1e3 * std::fabs(settlement),
+                      compaction < 0.0 ? "loosen" : "compact", 1e3 * std::fabs(compaction),
+                      pushed < 0.0 ? "into" : "out of", 1e3 * std::fabs(pushed));
   const std::string from = several(results)
                                ? fmt::format("over {} beds", results.size())
                                : fmt::format("over {} cells of one bed, which is one sample",

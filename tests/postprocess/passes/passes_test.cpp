@@ -357,8 +357,8 @@ TEST_F(Passes, AnswersInOneSentenceOnAPage) {
   EXPECT_TRUE(
       contains(answer, {"3 passes compact the lift", "from a solid fraction of", "degree of compaction",
                         "relative density", "after 2 passes the gain per pass is below 5 % of the total",
-                        "mm of settlement", "compaction of all layers makes 32.5 mm",
-                        "soil pushed along or aside 41.5 mm", "one bed"}));
+                        "the surface sinks by 74.0 mm", "all layers together compact by 32.5 mm",
+                        "soil that is pushed out of the measured part makes 41.5 mm", "one bed"}));
   const std::string page = read_text(folder_ / "made/out/passes/index.html");
   EXPECT_TRUE(contains(page, {"3 passes compact the lift", "no dumps with the roller on the measured part",
                               "Balls of soil that lie on no other soil after pass 3, and do not count: 1."}));
