@@ -16,6 +16,14 @@ namespace drumlin::post {
 
 namespace {
 
+/// A name of the plan as a label of a figure, where an underscore would begin a subscript.
+std::string as_written(const std::string &name) {
+  std::string label;
+  for (const char c : name)
+    label += c == '_' ? std::string("\\_") : std::string(1, c);
+  return label;
+}
+
 std::string with_unit(const std::string &label, const std::string &unit) {
   return unit == "-" ? label : fmt::format("{} [{}]", label, unit);
 }
@@ -236,7 +244,7 @@ std::string figure_name(const Axis &axis) { return "over_" + axis.name; }
 Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<const Scene *> &scenes,
                  const Results &results, CurveTable &table) {
   const std::vector<std::string> series = series_of(scenes);
-  Panel panel{"", axis.label, with_unit(quantity.label, quantity.shown_unit), {}};
+  Panel panel{"", as_written(axis.label), as_written(with_unit(quantity.label, quantity.shown_unit)), {}};
   Reach across, up;
   for (const Scene *scene : scenes)
     across.add(scene->at.at(axis.name));
