@@ -12,7 +12,7 @@ namespace drumlin::post {
 ///   beds/       restart files of the beds
 ///   runs.csv    values of each run, and its processor time
 ///   index.html  tables and figures
-///   runs/       with `keep`: all files of each run that is made, in a folder for each scene and seed
+///   runs/       if `keep`: the files of each run, in a folder for its scene and seed
 /// A run that fails does not stop the others: the page names it, and std::runtime_error is thrown at the end.
 /// \param jobs runs at the same time
 void run_experiment(const Plan &plan, const std::filesystem::path &out, int jobs, bool keep);
