@@ -30,6 +30,10 @@ std::string with_unit(const std::string &label, const std::string &unit) {
 
 /// The unit of a quantity's changes, and the factor to it.
 std::string change_unit(const Quantity &quantity) { return quantity.absolute ? quantity.shown_unit : "%"; }
+std::string change_with_unit(const std::string &change, const Quantity &quantity) {
+  const std::string unit = change_unit(quantity);
+  return unit == "-" ? change : change + " " + unit;
+}
 double change_scale(const Quantity &quantity) { return quantity.absolute ? quantity.scale : 100.0; }
 
 /// A number with so many significant digits, or all of those before the point, and no exponent where it is
@@ -41,11 +45,20 @@ std::string rounded(double value, int digits, bool with_sign = false) {
   return (with_sign && !(value < 0.0) ? "+" : "") + text;
 }
 
+/// A mean with the digits that its interval allows: two of the half width's, and no fraction of a unit from
+/// 10 on.
 std::string interval_text(const MeanInterval &interval, double scale, bool with_sign = false) {
-  const std::string mean = rounded(scale * interval.mean, 3, with_sign);
-  return std::isfinite(interval.half_width)
-             ? fmt::format("{} ± {}", mean, rounded(scale * interval.half_width, 2))
-             : mean + " (one)";
+  const double mean = scale * interval.mean, half_width = scale * interval.half_width;
+  if (!std::isfinite(half_width)) return rounded(mean, 3, with_sign) + " (one)";
+  constexpr double least = 1e-6, most = 1e7; // beyond them numbers have exponents
+  if (!(half_width >= least && std::max(half_width, std::fabs(mean)) < most))
+    return fmt::format("{} ± {}", rounded(mean, 3, with_sign), rounded(half_width, 2));
+  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(half_width))));
+  const std::string text = fmt::format("{:.{}f}", mean, decimals);
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos; // which has no sign
+  const std::string sign = with_sign && !is_zero && mean > 0.0 ? "+" : "";
+  return fmt::format("{}{} ± {:.{}f}", sign, is_zero ? fmt::format("{:.{}f}", 0.0, decimals) : text,
+                     half_width, decimals);
 }
 
 std::string change_text(const std::optional<Change> &change, const Quantity &quantity) {
@@ -81,17 +94,19 @@ PageTable conclusion_table(const Plan &plan, const std::vector<Effect> &effects)
       if (!effect.changes[q]) continue;
       const std::string cost =
           std::isfinite(effect.cost) ? fmt::format(", time x {:.2g}", effect.cost) : std::string();
-      cells[static_cast<std::size_t>(verdict_of(*effect.changes[q], quantity))].push_back(
-          fmt::format("{} ({} {}{})", effect.compared->words,
-                      rounded(change_scale(quantity) * effect.changes[q]->shown(quantity).mean, 2, true),
-                      change_unit(quantity), cost));
+      cells[static_cast<std::size_t>(verdict_of(*effect.changes[q], quantity))].push_back(fmt::format(
+          "{} ({}{})", effect.compared->words,
+          change_with_unit(rounded(change_scale(quantity) * effect.changes[q]->shown(quantity).mean, 2, true),
+                           quantity),
+          cost));
     }
     table.add({quantity.label, joined_cells(cells[0]), joined_cells(cells[1]), joined_cells(cells[2])});
   }
   table.notes = {
       "In brackets: the mean change, and the processor time over that of what it is compared with.",
-      "A quantity hardly changes if the whole 95 % confidence interval of its change is within 10 % "
-      "(settlement: 1 mm). It changes if the interval is not, and does not contain zero."};
+      "A quantity hardly changes if the whole 95 % confidence interval of its change is within 10 % of what "
+      "it is compared with; if its changes are given in its unit, within a tenth of the largest mean of a "
+      "scene (settlement per cycle: 1 mm). It changes if the interval is not, and does not contain zero."};
   return table;
 }
 
@@ -118,7 +133,7 @@ PageTable effect_table(const Plan &plan, const std::vector<Effect> &effects) {
   }
   table.notes = {
       "Mean change and half of its 95 % confidence interval (Student's t), in percent of the mean of what it "
-      "is compared with (none if that is zero), or in the unit of a quantity whose mean may be about zero. * "
+      "is compared with (none if that is zero), or in the unit of a quantity that can be about zero. * "
       "marks changes whose interval does not contain zero; by chance alone one of twenty has it.",
       "Changes are taken seed by seed, so that what two scenes on beds of one seed share cancels."};
   if (std::any_of(effects.begin(), effects.end(), [](const Effect &one) { return !one.compared->paired; }))
@@ -328,8 +343,9 @@ std::string cost_words(const Plan &plan, const Results &results) {
 
 } // namespace
 
-void write_experiment_page(const std::filesystem::path &out, const Plan &plan, const Results &results,
+void write_experiment_page(const std::filesystem::path &out, Plan plan, const Results &results,
                            const std::vector<std::string> &failures) {
+  plan.quantities = as_shown(std::move(plan.quantities), results);
   const std::vector<Effect> effects = effects_of(plan, results);
   Page page(out, plan.title, plan.scenes.front().bed ? std::optional(Drawing::bed) : std::nullopt);
   for (const std::string &sentence : plan.about)

@@ -11,7 +11,7 @@ namespace drumlin::post {
 
 /// Writes tables, figures and index.html into the experiment's folder.
 /// \param failures runs that failed, one sentence each
-void write_experiment_page(const std::filesystem::path &out, const Plan &plan, const Results &results,
+void write_experiment_page(const std::filesystem::path &out, Plan plan, const Results &results,
                            const std::vector<std::string> &failures);
 
 } // namespace drumlin::post

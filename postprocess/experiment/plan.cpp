@@ -463,10 +463,15 @@ private:
   /// Checks what the lines of a scene, or those before the first one, say together.
   void end_scene() {
     const std::string differs = std::exchange(differs_, {}), base = std::exchange(base_, {});
+    const bool is_placed = seen_.count("series") > 0 ||
+                           std::any_of(seen_.begin(), seen_.end(),
+                                       [](const std::string &seen) { return seen.rfind("at ", 0) == 0; });
     seen_.clear();
     settings_ = 0;
     if (!in_scene_) return;
     Scene &done = plan_.scenes.back();
+    // Where the scene above is, it would be taken for another seed of that one.
+    if (!base.empty() && !is_placed) done.at.clear();
     const auto refuse_scene = [&](const std::string &allowed) {
       refuse("scene", done.name, allowed, scene_line_);
     };

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace drumlin::post {
 
@@ -45,6 +47,13 @@ double cost_ratio(const Comparison &compared, const Samples &costs) {
   for (std::size_t i = 0; i < costs.values.size(); ++i)
     ratios.push_back(costs.values[i] / costs.bases[i]);
   return median(ratios);
+}
+
+/// The unit in which a page shows numbers up to `largest`, and the factor to it.
+std::pair<std::string, double> shown_unit_of(const std::string &unit, double largest) {
+  if (unit == "m" && largest < 1.0) return {"mm", 1e3};
+  if (unit.find_first_of("NJPW") != 0 || largest < 1e3) return {unit, 1.0};
+  return largest < 1e6 ? std::pair("k" + unit, 1e-3) : std::pair("M" + unit, 1e-6);
 }
 
 /// The value of a key, empty if there is none.
@@ -117,6 +126,27 @@ std::optional<Change> change_of(const Results &results, const Comparison &compar
   const double scale = std::fabs(mean_interval(samples.bases).mean);
   change.relative = {change.difference.mean / scale, change.difference.half_width / scale};
   return change;
+}
+
+std::vector<Quantity> as_shown(std::vector<Quantity> quantities, const Results &results) {
+  for (Quantity &quantity : quantities) {
+    double least = 0.0, most = 0.0, largest_mean = 0.0;
+    for (const std::string &scene : results.scenes()) {
+      const std::vector<double> values = numbers(results.values(scene, quantity.name));
+      if (values.empty()) continue;
+      const auto [low, high] = std::minmax_element(values.begin(), values.end());
+      least = std::min(least, *low);
+      most = std::max(most, *high);
+      largest_mean = std::max(largest_mean, std::fabs(mean_interval(values).mean));
+    }
+    if (quantity.shown_unit == quantity.unit)
+      std::tie(quantity.shown_unit, quantity.scale) = shown_unit_of(quantity.unit, std::max(most, -least));
+    if (!quantity.absolute && least < 0.0 && most > 0.0) {
+      quantity.absolute = true;
+      quantity.tolerance *= largest_mean;
+    }
+  }
+  return quantities;
 }
 
 std::vector<Effect> effects_of(const Plan &plan, const Results &results) {

@@ -70,6 +70,12 @@ struct Change {
 std::optional<Change> change_of(const Results &results, const Comparison &compared,
                                 const std::string &quantity);
 
+/// The quantities as pages show them, which follows from their values in all runs: lengths below 1 m in mm,
+/// forces, energies and stiffnesses from 1000 on with k or M before their unit; and changes of a quantity
+/// that is positive in some runs and negative in others in its unit, since percent of a mean about zero say
+/// nothing. Such a change is negligible within a tenth of the largest mean of a scene.
+std::vector<Quantity> as_shown(std::vector<Quantity> quantities, const Results &results);
+
 /// What a comparison finds.
 struct Effect {
   const Comparison *compared = nullptr; ///< of the plan

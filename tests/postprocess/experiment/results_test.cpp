@@ -16,6 +16,8 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace drumlin::test {
@@ -239,6 +241,59 @@ TEST(Effect, LeavesOutWhatIsMissingAndComparesCosts) {
   EXPECT_TRUE(of_zero[0].changes[2].has_value());
 }
 
+// Three scenes whose means are -0.02, 0.01 and 0.05 m, 9 and 11 kN/m, and 3 to 5 MN/m.
+TEST(ShownQuantities, HaveUnitsThatFitAndChangesInThemWhereValuesHaveBothSigns) {
+  const std::vector<post::Quantity> asked = {
+      post::column_quantity("lift_rise", "m", "last", "passes.csv", "lift [m]"),
+      post::column_quantity("gain", "-", "gain", "passes.csv", "density [-]"),
+      post::column_quantity("force", "N/m", "mean", "passes.csv", "force [N]"),
+      post::column_quantity("stiffness", "N/m", "mean", "passes.csv", "k [N/m]"),
+      *post::bed_quantity("settlement"),
+      *post::bed_quantity("force")};
+  std::vector<Result> rows;
+  for (int seed = 1; seed <= 2; ++seed) {
+    const double aside = seed == 1 ? -1e-3 : 1e-3;
+    for (const auto &[scene, rise] : {std::pair("a", -0.02), std::pair("b", 0.01), std::pair("c", 0.05)})
+      rows.push_back({scene, seed, "lift_rise", "m", rise + aside, 1.0});
+    rows.push_back({"a", seed, "gain", "-", 0.03 + aside, 1.0});
+    rows.push_back({"a", seed, "stiffness", "N/m", seed == 1 ? 3e6 : 5e6, 1.0});
+    rows.push_back({"a", seed, "force", "N/m", seed == 1 ? 9e3 : 11e3, 1.0});
+  }
+  const std::vector<post::Quantity> shown = post::as_shown(asked, Results(rows));
+  ASSERT_EQ(shown.size(), asked.size());
+  EXPECT_TRUE(shown[0].absolute);
+  EXPECT_DOUBLE_EQ(shown[0].tolerance, 0.1 * 0.05);
+  EXPECT_FALSE(shown[1].absolute);
+  EXPECT_EQ(shown[1].tolerance, asked[1].tolerance);
+  EXPECT_EQ(shown[4].tolerance, asked[4].tolerance);
+  for (const auto &[n, unit, scale] :
+       {std::tuple(0U, "mm", 1e3), std::tuple(1U, "-", 1.0), std::tuple(2U, "kN/m", 1e-3),
+        std::tuple(3U, "MN/m", 1e-6), std::tuple(4U, "mm", 1e3), std::tuple(5U, "kN/m", 1e-3)}) {
+    EXPECT_EQ(shown[n].shown_unit, unit) << n;
+    EXPECT_EQ(shown[n].scale, scale) << n;
+  }
+}
+
+// gnuplot would draw the part behind an underscore as a subscript.
+TEST(ExperimentPage, WritesNamesOfThePlanAsTheyAre) {
+  post::Plan plan = made_up_plan();
+  plan.quantities = {post::column_quantity("lift_gain", "-", "gain", "passes.csv", "density [-]")};
+  std::vector<Result> rows;
+  for (int seed = 1; seed <= 3; ++seed) {
+    rows.push_back({"base", seed, "lift_gain", "-", 0.01 * seed, 2.0});
+    rows.push_back({"A", seed, "lift_gain", "-", -0.01 * seed, 2.0});
+  }
+  const post::TemporaryFolder temporary(testing::TempDir(), "experiment_names");
+  post::write_experiment_page(temporary.path(), plan, Results(rows), {});
+  expect_sound_page(temporary.path(), 2, "index.html", 0);
+  // Of 0.01, 0.02 and 0.03: -0.02, -0.04 and -0.06, which would be -200 %.
+  EXPECT_NE(post::read_text(temporary.path() / "index.html").find("-0.040 ± 0.050"), std::string::npos);
+  for (const char *name : {"changes", "over_load"}) {
+    const std::string drawn = post::read_text(temporary.path() / "figures" / (std::string(name) + ".svg"));
+    EXPECT_NE(drawn.find("lift_gain"), std::string::npos) << name;
+  }
+}
+
 TEST(ResultRows, ComeBackBitForBit) {
   const post::TemporaryFolder temporary(testing::TempDir(), "results");
   const fs::path file = temporary.path() / "runs.csv";
@@ -266,8 +321,8 @@ TEST(ExperimentPage, SaysWhatDiffersByHowMuchAndWhatIsMissing) {
   const fs::path &folder = temporary.path();
   post::write_experiment_page(folder, made_up_plan(), Results(rows), {"seed 4, A: failed"});
   const std::string page = post::read_text(folder / "index.html");
-  for (const char *words : {"Missing: seed 4, A: failed", "+20.1 ± 0.12 *",
-                            "A instead of B (+20 %, time x 2)", "+0.2 ± 0.25", "static load [kN/m]"})
+  for (const char *words : {"Missing: seed 4, A: failed", "+20.10 ± 0.12 *",
+                            "A instead of B (+20 %, time x 2)", "+0.20 ± 0.25", "static load [kN/m]"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   expect_sound_page(folder, 2, "index.html", 0);
 }
