@@ -149,6 +149,8 @@ void run(const Arguments &arguments) {
   MeterResult result;
   result.record = judged(arguments.record);
   result.cycles = meter_cycles(result.record);
+  if (!result.cycles.vibrates)
+    throw UsageError(refusal("Fw", "0", "a record of a roller that vibrates, else no meter shows anything"));
   if (task.way.given()) keep_cycles(result.cycles, result.record, rows_on(result.record, task.way));
   if (!arguments.window) // the usual one, or of a short record all of it
     task.options.window =

@@ -366,6 +366,7 @@ MeterRecord meter_cycles(const Record &record) {
   result.thickness = thickness_of(record);
   result.m2 = record.m2;
   result.m3 = record.m3;
+  result.vibrates = record.Fw.value_or(1.0) != 0.0;
   const StepSums sums = read_sums(record);
   const bool summed = sums.cycles() > 0;
   const std::size_t count = summed && record.time.empty() ? sums.cycles()

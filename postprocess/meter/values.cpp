@@ -155,7 +155,7 @@ std::vector<MeterWindow> meter_windows(const MeterRecord &record, const MeterOpt
     window.first = total % count + i * count;
     window.begin = record.cycles[window.first].begin;
     window.end = window.begin + period * static_cast<double>(count);
-    take_amplitudes(record, options, count, window);
+    if (record.vibrates) take_amplitudes(record, options, count, window);
     window.contact_share = mean_of(record.cycles, window, count, &MeterCycle::contact_share);
     // A drum that just keeps contact and one that just loses it have the same force within its errors: less
     // than 2 % of the largest one for 9 % of the cycle, half as much again with errors.
@@ -171,8 +171,8 @@ std::vector<MeterWindow> meter_windows(const MeterRecord &record, const MeterOpt
       for (std::size_t cycle = window.first; cycle < window.first + count; ++cycle)
         window.peak_force = std::max(*window.peak_force, *record.cycles[cycle].peak_force);
     }
-    take_stiffness(record, count, window);
-    take_modulus(record, options, count, window);
+    if (record.vibrates) take_stiffness(record, count, window);
+    if (record.vibrates) take_modulus(record, options, count, window);
     window.mode = mode_of(record.cycles, window, count, options.same);
   }
   return windows;

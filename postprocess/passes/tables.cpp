@@ -163,7 +163,7 @@ std::string way_csv(const PassesResult &result) {
       cells.push_back(cell_of(value));
     cells.push_back(cell_of(cell.energy_exciter));
     cells.push_back(cell_of(cell.energy_traction));
-    cells.emplace_back(cell.cycles > 0 ? mode_names[static_cast<std::size_t>(meter.mode)] : "");
+    cells.emplace_back(cell.cycles > 0 && meter.cmv ? mode_names[static_cast<std::size_t>(meter.mode)] : "");
     text += csv_line(cells);
   }
   return text;

@@ -110,6 +110,8 @@ private:
     record.cycles_file.clear();
     samples_ = meter_cycles(record);
     result_.source = sums_.source;
+    if (!sums_.vibrates)
+      result_.notes.emplace_back("The exciter is off (Fw is 0): there are no meter values, no k and no D.");
   }
 
   void add_soil(std::size_t n) {
@@ -247,7 +249,7 @@ private:
       for (std::size_t m = 0; m < means.size(); ++m)
         found[m].push_back((cell.meter.*means[m].from).value_or(none));
       ccv.push_back(cell.ccv.value_or(none));
-      ++modes[static_cast<std::size_t>(cell.meter.mode)];
+      if (sums_.vibrates) ++modes[static_cast<std::size_t>(cell.meter.mode)];
     }
     for (std::size_t m = 0; m < means.size(); ++m)
       values.*means[m].into = mean_of(found[m]);
@@ -255,7 +257,7 @@ private:
     values.ccv = mean_of(ccv);
     const auto most = std::max_element(modes.begin(), modes.end());
     if (*most > 0) values.mode = mode_names[static_cast<std::size_t>(most - modes.begin())];
-    identify_pass(pass, values);
+    if (sums_.vibrates) identify_pass(pass, values);
   }
 
   void identify_pass(const DrivenPass &pass, PassValues &values) {

@@ -21,6 +21,7 @@
 #include <complex>
 #include <filesystem>
 #include <optional>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -336,6 +337,11 @@ TEST_F(MeterCommand, RecordOfARun) {
   fs::create_directories(folder_ / "other");
   write_files({{folder_ / "other/mine", "x"}});
   EXPECT_TRUE(meter({"run", "--out", "other"}).says("--out is 'other'; allowed: a folder that is new"));
+  const fs::path parameters = folder_ / "run/parameters.csv";
+  write_files({{parameters, std::regex_replace(read_text(parameters), std::regex("\nFw,[^\n]*"), "\nFw,0")}});
+  const Outcome still = meter({"run"});
+  EXPECT_EQ(still.status, 2);
+  EXPECT_TRUE(still.says("ERROR: drumlin meter: Fw is '0'; allowed: a record of a roller that vibrates"));
 }
 
 // A bed in two dimensions as its deck writes it: the run of the chain, with the forces of 1 m.

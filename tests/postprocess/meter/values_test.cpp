@@ -250,6 +250,15 @@ TEST(Meter, StiffnessAndEnergyInContinuousContact) {
   EXPECT_LT(*window.cmv, 1e-3);
 }
 
+// A drum that still swings on the soil after the exciter was stopped is no meter of the soil.
+TEST(Meter, OfARollerThatDoesNotVibrateHasNoValues) {
+  Record record = record_of(table1_case("I", Transition::B), 100, 400);
+  record.Fw = 0.0;
+  const MeterWindow window = last_window(record);
+  EXPECT_FALSE(window.cmv || window.rmv || window.ccv || window.k_B || window.k_1 || window.E_vib);
+  EXPECT_TRUE(window.contact_share && window.peak_force);
+}
+
 TEST(Meter, ForceFromAccelerationsGivesTheSame) {
   Record record = record_of(table1_case("II", Transition::B), 60, 500);
   const MeterWindow recorded = last_window(record);

@@ -373,6 +373,29 @@ TEST_F(Passes, AnswersInOneSentenceOnAPage) {
   EXPECT_TRUE(contains(passes({"run"}).output, {"%, looser than the loosest packing of dry soil)"}));
 }
 
+TEST_F(Passes, SaysWhetherTheSurfaceRisesAndSoilLoosens) {
+  DriveRun run;
+  run.bed = [bed = run.bed](int pass) { return bed(3 - pass); };
+  write_run("run", run);
+  const std::string answer = lines_of(passes({"run"}).output).front();
+  EXPECT_TRUE(contains(answer, {"3 passes loosen the lift", "the surface rises by 74.0 mm",
+                                "all layers together loosen by ", "pushed into the measured part makes "}))
+      << answer;
+}
+
+TEST_F(Passes, OfARollerThatDoesNotVibrateHaveNoMeterValues) {
+  const fs::path parameters = write_run("run") / "parameters.csv";
+  write_files({{parameters, std::regex_replace(read_text(parameters), std::regex("Fw,[0-9]+"), "Fw,0")}});
+  const Outcome outcome = passes({"run"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(contains(outcome.output, {"3 passes compact the lift", "No cell has a value of CMV.",
+                                        "The exciter is off (Fw is 0): there are no meter values"}));
+  const Table table = read_table(folder_ / "run/passes.csv");
+  for (const char *column : {"CMV [-]", "RMV [-]", "CCV [-]", "k_B [N/m]", "k [N/m]", "D [-]", "mode"})
+    EXPECT_EQ(table.text(column), std::vector<std::string>(4, "")) << column;
+  EXPECT_EQ(std::stod(table.text("peak_force [N]")[3]), 3e5);
+}
+
 // CMV is 30, 60 and 90 in all five cells of the three passes.
 TEST_F(Passes, JudgesTheCellsByRulesOfAcceptance) {
   write_run("run");
