@@ -309,17 +309,20 @@ PageFigure axis_figure(const Plan &plan, const Axis &axis, const Results &result
 }
 
 std::string effects_words(const std::vector<Effect> &effects, const std::vector<Quantity> &quantities) {
-  std::vector<std::string> names;
-  for (const Effect &effect : effects)
-    for (std::size_t q = 0; q < quantities.size(); ++q)
-      if (effect.changes[q] && verdict_of(*effect.changes[q], quantities[q]) == Verdict::changes) {
-        names.push_back(effect.compared->words);
-        break;
-      }
   if (effects.empty()) return "There is no comparison yet.";
-  return fmt::format("{} of {} differences between scenes change at least one quantity by more than the "
-                     "scatter of the seeds (95 % confidence interval without zero){}{}.",
-                     names.size(), effects.size(), names.empty() ? "" : ": ", fmt::join(names, "; "));
+  std::size_t changes = 0, all = 0;
+  for (const Effect &effect : effects)
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+      if (!effect.changes[q]) continue;
+      ++all;
+      if (verdict_of(*effect.changes[q], quantities[q]) == Verdict::changes) ++changes;
+    }
+  constexpr double by_chance = 0.05; // outside of a 95 % interval
+  return fmt::format(
+      "Changes of one quantity between two scenes: {}, of them {} larger than the scatter of the "
+      "seeds (95 % confidence interval without zero), where by chance {:.0f} would be. The first "
+      "table says which.",
+      all, changes, by_chance * static_cast<double>(all));
 }
 
 std::string cost_words(const Plan &plan, const Results &results) {
