@@ -1,9 +1,10 @@
 #include "chain/two_ends.h"
 
+#include "chain/linear_algebra.h"
 #include "files/roller.h"
 #include "support/range.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -69,7 +70,8 @@ std::vector<AxleLink> at_start(std::vector<AxleLink> contacts, const WaySection 
 
 double norm_of(const Matrix4d &matrix, const Vector4d &mass) {
   const Vector4d scale = mass.cwiseSqrt().cwiseInverse();
-  return Matrix4d(scale.asDiagonal() * matrix * scale.asDiagonal()).operatorNorm();
+  const Matrix4d scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+  return std::sqrt(eigenvalues_of(scaled.transpose() * scaled).real().maxCoeff());
 }
 
 /// z and z' of the drum at y, positive up.
@@ -707,7 +709,7 @@ TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMoti
     }
   }
   const auto grown = [&orbit, count, half](const auto &matrix, double logarithm, double at_half) {
-    if (orbit.cycles > 0) return std::exp(logarithm) * matrix.eigenvalues().cwiseAbs().maxCoeff();
+    if (orbit.cycles > 0) return std::exp(logarithm) * eigenvalues_of(matrix).cwiseAbs().maxCoeff();
     return std::exp((logarithm - at_half) / static_cast<double>(count - half));
   };
   orbit.largest = grown(all, size, half_size);

@@ -1,6 +1,8 @@
 #include "map/ends.h"
 
-#include <Eigen/Dense>
+#include "chain/linear_algebra.h"
+
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -154,7 +156,7 @@ double ends_margin(const TwoEnds &machine) {
   const Eigen::Vector4d push(-p.Fw, 0.0, -machine.exciter * p.Fw, 0.0),
       weight(-p.m2 * p.g, -p.m3 * p.g, 0.0, 0.0);
   const Eigen::Vector4cd amplitude = dynamic.fullPivLu().solve(push.cast<Complex>());
-  const Eigen::Vector4d mean = spring.fullPivLu().solve(weight);
+  const Eigen::Vector4d mean = solution_of(spring, weight);
   double least = std::numeric_limits<double>::infinity();
   for (const AxleLink &link : machine.contacts) {
     const double c = p.transition == Transition::B ? link.c : 0.0;

@@ -9,7 +9,9 @@
 //     void advance(motion, tangent)                 over a cycle, with a small difference unless nullptr
 #pragma once
 
-#include <Eigen/Dense>
+#include "chain/linear_algebra.h"
+
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -49,10 +51,10 @@ struct OrbitOf {
 template <int size>
 std::array<std::complex<double>, static_cast<std::size_t>(size)>
 floquet_multipliers(const Eigen::Matrix<double, size, size> &monodromy) {
-  const Eigen::EigenSolver<Eigen::Matrix<double, size, size>> solver(monodromy, false);
+  const Eigen::VectorXcd found = eigenvalues_of(monodromy);
   std::array<std::complex<double>, static_cast<std::size_t>(size)> values{};
   for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = solver.eigenvalues()[static_cast<Eigen::Index>(i)];
+    values[i] = found[static_cast<Eigen::Index>(i)];
   std::sort(values.begin(), values.end(),
             [](const auto &a, const auto &b) { return std::abs(a) > std::abs(b); });
   return values;
@@ -96,7 +98,7 @@ std::optional<OrbitOf<System>> newton_orbit(const System &system, const typename
     best = std::min(best, residual);
     const Matrix equation =
         scale.cwiseInverse().asDiagonal() * (Matrix::Identity() - passage.jacobian) * scale.asDiagonal();
-    const State step = equation.fullPivLu().solve(miss.cwiseQuotient(scale));
+    const State step = solution_of(equation, miss.cwiseQuotient(scale));
     if (!step.allFinite()) return std::nullopt;
     orbit.state += step.cwiseProduct(scale);
   }

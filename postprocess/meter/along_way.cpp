@@ -1,9 +1,10 @@
 #include "meter/along_way.h"
 
+#include "chain/linear_algebra.h"
 #include "support/csv.h"
 #include "support/range.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -184,7 +185,7 @@ std::optional<double> memory_time(const Record &record, double k, double c) {
   state.row(2) << -(k + *k23) / m2, *k23 / m2, -(c + *c23) / m2, *c23 / m2;
   state.row(3) << *k23 / m3, -*k23 / m3, *c23 / m3, -*c23 / m3;
   if (!state.allFinite()) return std::nullopt;
-  const double slowest = -state.eigenvalues().real().maxCoeff();
+  const double slowest = -eigenvalues_of(state).real().maxCoeff();
   if (!(slowest > 0.0)) return std::nullopt;
   constexpr double hundredth = 4.60517018598809; // ln 100
   return hundredth / slowest;
