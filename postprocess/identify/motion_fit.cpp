@@ -125,32 +125,42 @@ struct ModelOf {
   template <class Matrix>
   Matrix rate(const Matrix &y, Set acting) const {
     Matrix d;
-    auto bond = (k23 * (y.row(0) - y.row(2)) + c23 * (y.row(1) - y.row(3))).eval();
+    for (Index column = 0; column < y.cols(); ++column)
+      put_rate(y.col(column).data(), acting, d.col(column).data());
+    return d;
+  }
+  // Of one column. In plain numbers: expressions of matrices would take most of the time of compiling this
+  // file, and of the tests under the sanitizers.
+  void put_rate(const double *y, Set acting, double *d) const {
+    double bond = k23 * (y[0] - y[2]) + c23 * (y[1] - y[3]);
     if constexpr (tilts) {
-      const auto turn = (y.row(4) - y.row(6)).eval(), turning = (y.row(5) - y.row(7)).eval();
+      const double turn = y[4] - y[6], turning = y[5] - y[7];
       bond += k23 * spring.first * turn + c23 * dashpot.first * turning;
-      const auto moment = (k23 * (spring.first * (y.row(0) - y.row(2)) + spring.second * turn) +
-                           c23 * (dashpot.first * (y.row(1) - y.row(3)) + dashpot.second * turning))
-                              .eval();
-      d.row(4) = y.row(5);
-      d.row(5) = (-moment - exciter * Fw() * y.row(of_sine)) / I2;
-      d.row(6) = y.row(7);
-      d.row(7) = moment / I3;
+      const double moment = k23 * (spring.first * (y[0] - y[2]) + spring.second * turn) +
+                            c23 * (dashpot.first * (y[1] - y[3]) + dashpot.second * turning);
+      d[4] = y[5];
+      d[5] = (-moment - exciter * Fw() * y[of_sine]) / I2;
+      d[6] = y[7];
+      d[7] = moment / I3;
     }
-    d.row(0) = y.row(1);
-    d.row(1) = (-bond - Fw() * y.row(of_sine)) / m2 - g * y.row(of_one);
+    d[0] = y[1];
+    d[1] = (-bond - Fw() * y[of_sine]) / m2 - g * y[of_one];
     for (std::size_t j = 0; j < contacts; ++j) {
       if (((acting >> j) & 1U) == 0) continue;
-      const auto force = (k[j] * position(y, j) + c[j] * velocity(y, j)).eval();
-      d.row(1) -= force / m2;
-      if constexpr (tilts) d.row(5) -= place[j] / I2 * force;
+      double position = y[0], velocity = y[1];
+      if constexpr (tilts) {
+        position += place[j] * y[4];
+        velocity += place[j] * y[5];
+      }
+      const double force = k[j] * position + c[j] * velocity;
+      d[1] -= force / m2;
+      if constexpr (tilts) d[5] -= place[j] / I2 * force;
     }
-    d.row(2) = y.row(3);
-    d.row(3) = bond / m3 - g * y.row(of_one);
-    d.row(of_sine) = omega * y.row(of_cosine);
-    d.row(of_cosine) = -omega * y.row(of_sine);
-    d.row(of_one).setZero();
-    return d;
+    d[2] = y[3];
+    d[3] = bond / m3 - g * y[of_one];
+    d[of_sine] = omega * y[of_cosine];
+    d[of_cosine] = -omega * y[of_sine];
+    d[of_one] = 0.0;
   }
   // Adds the change of the rate by the change of each parameter.
   void add_sources(const State &y, Set acting, double factor, Slopes &s) const {
