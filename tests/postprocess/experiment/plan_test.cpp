@@ -388,7 +388,7 @@ TEST(PlansOfTheProject, AreCompleteAndHaveTheResultsBesideThem) {
   EXPECT_EQ(runs("box"), 3U * 6U + 10U * 3U);
   EXPECT_EQ(runs("suction"), 9U * 5U);
   EXPECT_EQ(runs("penetration"), 6U * 3U);
-  EXPECT_EQ(runs("drive"), 3U * 5U + 18U * 3U);
+  EXPECT_EQ(runs("drive"), 3U * 5U + 20U * 3U);
   for (const char *study : {"fidelity", "box", "friction", "stiffness", "damping", "scatter"}) {
     const Plan plan = plan_of(study);
     EXPECT_TRUE(plan.can_be_scaled()) << study;
