@@ -6,7 +6,7 @@
 
 namespace drumlin::post {
 
-/// Eigenvalues of a square matrix, in no order; NaN if its elements are not finite.
+/// Eigenvalues of a square matrix, unsorted; all NaN if an element is not finite.
 Eigen::VectorXcd eigenvalues_of(const Eigen::Ref<const Eigen::MatrixXd> &matrix);
 
 /// x of A x = b for a square A, by elimination with full pivoting.

@@ -16,7 +16,7 @@ namespace drumlin::post {
 
 namespace {
 
-/// A name of the plan as a label of a figure, where an underscore would begin a subscript.
+/// A name of the plan as a label of a figure: gnuplot would make a subscript of what follows an underscore.
 std::string as_written(const std::string &name) {
   std::string label;
   for (const char c : name)
@@ -45,8 +45,7 @@ std::string rounded(double value, int digits, bool with_sign = false) {
   return (with_sign && !(value < 0.0) ? "+" : "") + text;
 }
 
-/// A mean with the digits that its interval allows: two of the half width's, and no fraction of a unit from
-/// 10 on.
+/// A mean and its half width, rounded to two digits of the half width, or to whole numbers from 10 on.
 std::string interval_text(const MeanInterval &interval, double scale, bool with_sign = false) {
   const double mean = scale * interval.mean, half_width = scale * interval.half_width;
   if (!std::isfinite(half_width)) return rounded(mean, 3, with_sign) + " (one)";

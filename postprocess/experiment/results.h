@@ -70,10 +70,10 @@ struct Change {
 std::optional<Change> change_of(const Results &results, const Comparison &compared,
                                 const std::string &quantity);
 
-/// The quantities as pages show them, which follows from their values in all runs: lengths below 1 m in mm,
-/// forces, energies and stiffnesses from 1000 on with k or M before their unit; and changes of a quantity
-/// that is positive in some runs and negative in others in its unit, since percent of a mean about zero say
-/// nothing. Such a change is negligible within a tenth of the largest mean of a scene.
+/// The quantities in the units in which pages show them. Lengths are in mm if all values are below 1 m;
+/// forces, energies and stiffnesses get k or M if the largest is 1000 or more. A quantity that is positive in
+/// some runs and negative in others becomes absolute: its changes are in its own unit instead of percent, and
+/// a change is negligible if it is within a tenth of the largest mean of a scene.
 std::vector<Quantity> as_shown(std::vector<Quantity> quantities, const Results &results);
 
 /// What a comparison finds.

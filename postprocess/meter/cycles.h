@@ -35,7 +35,7 @@ struct MeterRecord {
   double interval = 0.0;       ///< between samples [s]; 0 without samples
   double noise = 0.0;          ///< of the samples, as in SignalFaults
   bool filtered = false;       ///< the samples have passed a filter; the harmonics are free of it
-  bool vibrates = true;        ///< false: the exciter is off (Fw is 0), and no meter value means anything
+  bool vibrates = true;        ///< false: the exciter is off (Fw is 0), so that there are no meter values
   bool computed_force = false; ///< the contact force is not recorded but computed from the accelerations
   /// Width of drum and soil whose forces the record has [m]: 1 of a bed in two dimensions, the thickness of
   /// one in three; none: the whole drum's. NaN: not known.
