@@ -161,6 +161,8 @@ void print_passes(const PassesArguments &arguments) {
   write_files(tables);
   page.publish();
   fmt::print("{}\n{}\n", answer_of(results), answer_of(judged.map, judged.rows, judged.rule));
+  for (const std::string &answer : answers_on_spots(judged.map))
+    fmt::print("{}\n", answer);
   for (const PassesResult &result : results)
     for (const std::string &note : result.notes)
       fmt::print("{}: {}\n", result.folder.string(), note);

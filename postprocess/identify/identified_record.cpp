@@ -196,9 +196,7 @@ bool find_phase(Record &record, const IdentificationSetting &law) {
   Record part = record;
   const auto size =
       std::min(record.size(), static_cast<std::size_t>(cycles * record.period() / record.interval) + 1);
-  for (std::vector<double> *values :
-       {&part.time, &part.a_drum, &part.a_frame, &part.logged_drum, &part.logged_frame})
-    values->resize(std::min(values->size(), size));
+  keep_samples(part, 0, size);
   for (std::vector<double> *values :
        {&part.x_drum, &part.v_drum, &part.x_frame, &part.v_frame, &part.F_contact})
     values->clear();

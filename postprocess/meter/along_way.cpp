@@ -100,15 +100,7 @@ void keep_cycles(MeterRecord &cycles, const Record &record, const WayRows &rows)
 Record part_of(const Record &record, const WayRows &rows) {
   Record part = record;
   part.cycles_file.clear();
-  const auto cut = [&rows](std::vector<double> &values) {
-    if (values.empty()) return;
-    values = std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(rows.first),
-                                 values.begin() + static_cast<std::ptrdiff_t>(rows.end));
-  };
-  for (const HistoryColumn &column : history_columns)
-    cut(part.*column.values);
-  cut(part.wander);
-  cut(part.pulse);
+  keep_samples(part, rows.first, rows.end);
   if (part.cycles() < least_cycles)
     csv_fault(record.file, 0, "s",
               refusal("the number of cycles on the part of the way", fmt::format("{:.3g}", part.cycles()),

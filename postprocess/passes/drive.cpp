@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -42,6 +43,23 @@ void check_deck(const fs::path &folder, const Parameters &parameters) {
   if (deck == parameters.end() || deck->second != "drive")
     csv_refusal(folder / "parameters.csv", 0, "deck", deck == parameters.end() ? "" : deck->second,
                 "drive, a run of inputs/bed/in.drive");
+}
+
+/// The spots of the bed, "FROM:TO,FROM:TO" [m].
+std::vector<WayPart> noted_spots(const fs::path &folder, const Parameters &parameters) {
+  const auto noted = parameters.find("spots");
+  if (noted == parameters.end() || noted->second == "none") return {};
+  std::vector<WayPart> spots;
+  std::istringstream texts(noted->second);
+  for (std::string text; std::getline(texts, text, ',');) {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::optional<double> from = any_number_from_text(text.substr(0, colon)),
+                                to = any_number_from_text(text.substr(std::min(colon + 1, text.size())));
+    if (!from || !to || !(*from < *to))
+      csv_refusal(folder / "parameters.csv", 0, "spots", noted->second, "none, or FROM:TO,FROM:TO [m]");
+    spots.push_back({*from, *to});
+  }
+  return spots;
 }
 
 /// The passes that the roller has driven to their ends.
@@ -272,6 +290,7 @@ Drive read_drive(const fs::path &folder) {
   constexpr double most = 1000.0;
   drive.layers =
       parameters.count("layers") == 0 ? 1 : static_cast<int>(number("layers", {1.0, most, "layers of soil"}));
+  drive.spots = noted_spots(folder, parameters);
   return drive;
 }
 

@@ -92,6 +92,12 @@ MeterMap meter_map(const std::vector<PassesResult> &results, const CellMeter &me
   map.meter = meter.name;
   map.unit = meter.unit;
   map.cell = results.front().cell;
+  const auto same_spots = [&](const PassesResult &result) {
+    const std::vector<WayPart> &first = results.front().spots;
+    return std::equal(first.begin(), first.end(), result.spots.begin(), result.spots.end(),
+                      [](const WayPart &a, const WayPart &b) { return a.from == b.from && a.to == b.to; });
+  };
+  if (std::all_of(results.begin(), results.end(), same_spots)) map.spots = results.front().spots;
   for (std::size_t run = 0; run < results.size(); ++run) {
     const PassesResult &result = results[run];
     const std::size_t first = map.places.size(), count = result.cells.size() / result.passes.size();
@@ -229,6 +235,49 @@ std::string answer_of(const MeterMap &map, const std::vector<PassCells> &rows, c
   else
     text += "; without a target (--target) nothing is judged";
   return text + ".";
+}
+
+std::vector<std::string> answers_on_spots(const MeterMap &map) {
+  std::size_t areas = 0;
+  for (const MapPlace &place : map.places)
+    areas = std::max(areas, place.area + 1);
+  const auto beside = [&](const MapPlace &place) {
+    return std::none_of(map.spots.begin(), map.spots.end(), [&](const WayPart &spot) {
+      return place.along + 0.5 * map.cell > spot.from && place.along - 0.5 * map.cell < spot.to;
+    });
+  };
+  const auto means = [&](const auto &counts) { // of each area that has such cells
+    std::vector<double> sums(areas), numbers(areas), found;
+    for (const MapValue &one : map.values)
+      if (const MapPlace &place = map.places[one.place]; counts(place)) {
+        sums[place.area] += one.value;
+        ++numbers[place.area];
+      }
+    for (std::size_t area = 0; area < areas; ++area)
+      if (numbers[area] > 0.0) found.push_back(sums[area] / numbers[area]);
+    return found;
+  };
+  std::vector<std::string> answers;
+  const std::string unit = map.unit_words();
+  for (const WayPart &spot : map.spots) {
+    const std::vector<double> on = means([&](const MapPlace &place) { return spot.holds(place.along); });
+    const std::vector<double> off = means(beside);
+    if (on.empty() || on.size() != areas || off.size() != areas) continue;
+    std::vector<double> differences;
+    for (std::size_t area = 0; area < areas; ++area)
+      differences.push_back(on[area] - off[area]);
+    const MeanInterval difference = mean_interval(differences);
+    std::string text = fmt::format(
+        "On the spot from {:g} to {:g} m, over all passes, {} is {:.4g}{}, beside it {:.4g}{}: a difference "
+        "of {:.3g}",
+        spot.from, spot.to, map.meter, mean_interval(on).mean, unit, mean_interval(off).mean, unit,
+        difference.mean);
+    text += areas == 1 ? " (one bed, which is one sample)"
+                       : fmt::format(" ± {:.2g} (95 %, over {} beds{})", difference.half_width, areas,
+                                     difference.significant() ? "" : ": not significant");
+    answers.push_back(text + ".");
+  }
+  return answers;
 }
 
 } // namespace drumlin::post

@@ -54,8 +54,9 @@ std::string count_words(std::size_t count, const char *one, const char *more) {
   return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
-/// After how many passes the gain per pass is small.
-std::string level_words(const Results &results, std::size_t layer) {
+/// After how many passes the gain per pass is small, if there is a gain at all.
+std::string level_words(const Results &results, std::size_t layer, bool gains) {
+  if (!gains) return "that is no more than scatter, so that it does not tell how many passes are enough";
   std::vector<double> means;
   const std::size_t passes = passes_of_all(results);
   for (std::size_t pass = 0; pass <= passes; ++pass)
@@ -313,8 +314,7 @@ PageTable pass_table(const Results &results) {
       "of those below on vertical lines, so that pores above its topmost balls do not count; the inside of a "
       "layer, of which are relative density and degree of compaction, begins two mean diameters, at most a "
       "quarter of the thickness, away from them, as in.density measures. Meter values are means "
-      "of cells, each of an "
-      "even number of whole cycles; k and D are identified from each pass."};
+      "of cells, each of an even number of whole cycles; k and D are identified from each pass."};
   if (results.front().flat)
     table.notes.emplace_back("Forces, stiffnesses and energies are those of 1 m of the drum's width.");
   return table;
@@ -323,8 +323,7 @@ PageTable pass_table(const Results &results) {
 std::string source_words(const PassesResult &result) {
   return result.source == HarmonicSource::every_step
              ? "CMV and RMV are sums over every time step (cycles.csv), CCV is from changes of velocity "
-               "between "
-               "samples (bed.csv)."
+               "between samples (bed.csv)."
              : "Harmonics are from changes of velocity between samples (bed.csv).";
 }
 
@@ -336,11 +335,12 @@ std::string answer_of(const Results &results) {
   const auto last = [&](const Value &value) { return mean_after(results, passes, value).mean; };
   const MeanInterval gain = gain_of(results, layer);
   const Value phi = solid_fraction_of(layer);
+  const bool gains = !std::isfinite(gain.half_width) || gain.significant();
+  const std::string verb = !gains ? "change" : last(phi) < first(phi) ? "loosen" : "compact";
   std::string text = fmt::format(
-      "{} {} the lift, {:.2f} m thick at first, from a solid fraction of {:.3f} to {:.3f} between its "
+      "{} {}{} the lift, {:.2f} m thick at first, from a solid fraction of {:.3f} to {:.3f} between its "
       "surfaces",
-      count_words(passes, "pass", "passes"),
-      last(phi) < first(phi) ? (passes == 1 ? "loosens" : "loosen") : (passes == 1 ? "compacts" : "compact"),
+      count_words(passes, "pass", "passes"), verb, passes == 1 ? "s" : "",
       first([layer](const PassValues &pass) { return pass.soil.thickness[layer]; }), first(phi), last(phi));
   const double degree = last([layer](const PassValues &pass) { return pass.degree[layer]; });
   if (std::isfinite(degree)) {
@@ -349,7 +349,7 @@ std::string answer_of(const Results &results) {
                         100.0 * degree, 100.0 * relative,
                         relative < 0.0 ? ", looser than the loosest packing of dry soil" : "");
   }
-  text += "; " + level_words(results, layer);
+  text += "; " + level_words(results, layer, gains);
   const double settlement = last([](const PassValues &pass) { return pass.settlement; });
   const double compaction = last([](const PassValues &pass) { return pass.compaction; });
   const double pushed = settlement - compaction;
@@ -375,6 +375,8 @@ void write_passes_page(const std::filesystem::path &folder, const Results &resul
   Page page(folder, "What the passes of a roller leave", Drawing::bed);
   page.answer(answer_of(results));
   page.answer(answer_of(judged.map, judged.rows, judged.rule));
+  for (const std::string &answer : answers_on_spots(judged.map))
+    page.answer(answer);
   page.answer(criteria_of(judged));
   const bool known = std::isfinite(one.passes.back().degree.back());
   if (!known)
@@ -418,9 +420,9 @@ void write_passes_page(const std::filesystem::path &folder, const Results &resul
     return slice.pass > 0 && slice.passing == 0 && slice.row.vertical;
   });
   if (standing)
-    page.paragraph("The run has no dumps with the roller on the measured part: the stresses are those that "
-                   "stay in the soil "
-                   "when the roller stands outside of it, not those under the passing drum.");
+    page.paragraph(
+        "The run has no dumps with the roller on the measured part: the stresses are those that "
+        "stay in the soil when the roller stands outside of it, not those under the passing drum.");
   if (one.animated.pass > 0) {
     page.section("A pass in motion");
     page.figure(animation_of("Fig. 6", one));

@@ -47,13 +47,7 @@ double scatter_of(const std::vector<double> &values) {
 Record part_of(const Record &all, const DrivenPass &pass) {
   Record part = all;
   part.cycles_file.clear(); // its cycles are those of the whole record
-  const auto cut = [&](std::vector<double> &values) {
-    if (values.empty()) return;
-    values = std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(pass.enters),
-                                 values.begin() + static_cast<std::ptrdiff_t>(pass.leaves) + 1);
-  };
-  for (const HistoryColumn &column : history_columns)
-    cut(part.*column.values);
+  keep_samples(part, pass.enters, pass.leaves + 1);
   return part;
 }
 
@@ -65,6 +59,7 @@ public:
   PassesResult result() {
     result_.folder = drive_.folder;
     result_.measured = drive_.measured;
+    result_.spots = drive_.spots;
     result_.speed = drive_.speed;
     result_.frequency = 1.0 / drive_.record.period();
     result_.cell = options_.cell;

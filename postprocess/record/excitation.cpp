@@ -627,8 +627,7 @@ void check_drift(Record &record) {
   if (wander > told) {
     record.phase_within = 2.0 * wander * degree;
     record.notes.push_back(fmt::format("the phase of the drum's motion wanders by {:.2g} degrees over the "
-                                       "record; that of the exciter counts "
-                                       "as known to {:.2g} degrees",
+                                       "record; that of the exciter counts as known to {:.2g} degrees",
                                        wander, 2.0 * wander));
   }
 }

@@ -434,20 +434,8 @@ void take_piece(Reading &reading, const RecordOptions &options) {
   }
   const SampleRange kept = pieces[record.piece];
   reading.first = kept.first;
-  const auto cut = [&kept](std::vector<double> &values) {
-    if (values.empty()) return;
-    values.erase(values.begin() + static_cast<std::ptrdiff_t>(kept.end), values.end());
-    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(kept.first));
-  };
   record.time = reading.times;
-  cut(record.time);
-  cut(record.s);
-  cut(record.pass);
-  cut(record.F_left);
-  cut(record.F_right);
-  cut(record.pulse);
-  for (const HistoryColumn &signal : record_signals)
-    cut(record.*signal.values);
+  keep_samples(record, kept.first, kept.end);
   if (pieces.size() > 1)
     record.notes.push_back(fmt::format("blank cells or gaps divide it into {} pieces; piece {} is read, from "
                                        "{:.6g} to {:.6g} s (--piece takes another)",
@@ -636,6 +624,19 @@ void compute_excitation(Record &record) {
     record.F_excitation.push_back(*record.Fw * record.force_share(i) * std::sin(record.angle(i)));
 }
 
+void keep_samples(Record &record, std::size_t first, std::size_t end) {
+  const auto keep = [first, end](std::vector<double> &values) {
+    if (values.empty()) return;
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(end), values.end());
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  for (const HistoryColumn &column : history_columns)
+    keep(record.*column.values);
+  for (std::vector<double> *values :
+       {&record.wander, &record.pulse, &record.logged_drum, &record.logged_frame})
+    keep(*values);
+}
+
 double Record::period() const {
   if (!omega)
     csv_fault(file, 0, {},
@@ -757,19 +758,7 @@ void undo_delays(Record &record, const std::map<std::string, double> &delays) {
     }
     *values = std::move(at_own_time);
   }
-  const auto cut = [first, end](std::vector<double> &values) {
-    if (values.empty()) return;
-    values.erase(values.begin() + static_cast<std::ptrdiff_t>(end), values.end());
-    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first));
-  };
-  cut(record.time);
-  cut(record.s);
-  cut(record.pass);
-  cut(record.F_left);
-  cut(record.F_right);
-  cut(record.pulse);
-  for (const HistoryColumn &signal : record_signals)
-    cut(record.*signal.values);
+  keep_samples(record, first, end);
   for (double &time : record.time)
     time -= own;
 }

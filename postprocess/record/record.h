@@ -109,6 +109,9 @@ struct Record : ChainHistory {
   double cycles() const;
 };
 
+/// Keeps the samples from `first` to before `end` of everything that a record has sample by sample.
+void keep_samples(Record &record, std::size_t first, std::size_t end);
+
 /// Where a signal stands in a measured file, and in which unit.
 struct ColumnSource {
   std::string header; ///< name of the column in the file, or its number

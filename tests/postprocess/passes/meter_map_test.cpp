@@ -69,6 +69,30 @@ TEST(MeterMap, CountsCellsAsRulesOfAcceptanceDo) {
       contains(answer_of(map, cells_of_passes(map, {}), {}), {"without a target", "nothing is judged"}));
 }
 
+// Cells of 0.34 m, of which the second and third have their middles on the spot, and the fourth has a part on
+// it. In the mean of both passes the spot takes 11 from the first bed and 13 from the second: 12 +- 12.7.
+TEST(MeterMap, TellsCellsOnASpotFromThoseBeside) {
+  MeterMap map = row_of_cells({{30, 18, 16, 1, 28}, {32, 20, 22, 1, 30}});
+  map.meter = "CMV";
+  map.spots = {{0.34, 1.1}};
+  EXPECT_EQ(answers_on_spots(map),
+            std::vector<std::string>{"On the spot from 0.34 to 1.1 m, over all passes, CMV is 19, beside it "
+                                     "30: a difference of -11 (one bed, which is one sample)."});
+  const MeterMap other = row_of_cells({{31, 18, 18, 2, 31}, {31, 18, 18, 2, 31}});
+  for (const MapPlace &place : other.places)
+    map.places.push_back({1, place.along, 0.0});
+  for (const MapValue &one : other.values)
+    map.values.push_back({one.pass, one.place + 5, one.value});
+  EXPECT_TRUE(contains(answers_on_spots(map).front(),
+                       {"CMV is 18.5, beside it 30.5: a difference of -12 ± 13 (95 %, over 2 beds: not "
+                        "significant)"}));
+  map.spots.push_back({1.4, 1.7}); // the last cell is now on a spot, so that only the first lies beside
+  ASSERT_EQ(answers_on_spots(map).size(), 2u);
+  EXPECT_TRUE(contains(answers_on_spots(map).back(), {"from 1.4 to 1.7 m", "is 30, beside it 31"}));
+  map.spots = {{5.0, 6.0}};
+  EXPECT_TRUE(answers_on_spots(map).empty());
+}
+
 // Of values that grow evenly by b per cell half the mean square of the differences over n cells is (b n)2/2;
 // of values that alternate it is 0 or half the square of their difference.
 TEST(MeterMap, SemivariogramFollowsItsDefinition) {

@@ -298,6 +298,20 @@ TEST_F(RecordFiles, RefusesColumns) {
     EXPECT_THROW(column_from_text(text), std::invalid_argument) << text;
 }
 
+TEST(Record, KeepsTheSameSamplesOfAllThatItHas) {
+  std::vector<std::vector<double> Record::*> columns = {&Record::wander, &Record::pulse, &Record::logged_drum,
+                                                        &Record::logged_frame};
+  for (const HistoryColumn &column : history_columns)
+    if (column.values != &ChainHistory::F_bond) columns.emplace_back(column.values);
+  Record record;
+  for (const auto column : columns)
+    record.*column = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0};
+  keep_samples(record, 2, 5);
+  for (const auto column : columns)
+    EXPECT_EQ(record.*column, (std::vector<double>{2.0, 3.0, 4.0}));
+  EXPECT_TRUE(record.F_bond.empty());
+}
+
 // What comes late is moved back, the drum's samples as they are, with the times.
 TEST_F(RecordFiles, UndoesDelays) {
   constexpr double dt = 1e-3, late_drum = 1.3e-3, late_frame = 4.15e-3, w = 180.0;
