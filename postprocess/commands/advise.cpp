@@ -140,8 +140,7 @@ void run_bed(const Arguments &arguments) {
              "beds is within {:g} {}\n",
              scale * advice.scatter, decimals, unit, advice.beds, scale * request.within, unit);
   fmt::print("  time       {:.2g} s of processor time for {} cycles where it was measured, {:.2g} times that "
-             "of the complete scene; "
-             "settling and placing come in addition\n",
+             "of the complete scene; settling and placing come in addition\n",
              advice.cpu_s, value_of(*advice.scene, "cycles"), advice.cost);
   tell_scatter(experiment, request);
   fmt::print("  scene      {}\n", scene_words(*advice.scene));
@@ -221,8 +220,7 @@ void run(const Arguments &arguments) {
   } else {
     const std::vector<ScalingPoint> tests = read_points(folder / "scaling.csv", scaling_points());
     fmt::print("  from       the curve of {}, scaled by max(sqrt(k/m2), omega) dt and by the sensitivity "
-               "{:.2g} of this "
-               "chain, times {:g}\n"
+               "{:.2g} of this chain, times {:g}\n"
                "  scaling    {}\n",
                curve, advice.sensitivity, scaling_margin, scaling_summary(tests));
     if (const std::string outside = outside_of_tests(request.parameters, tests); !outside.empty())
@@ -249,8 +247,7 @@ void add_advise_command(CLI::App &app, Session &) {
       "Steps per cycle that a run of the chain needs for an error, by the measured curves of the accuracy "
       "study; for other chains than the measured ones scaled, with a margin. With --bed the cheapest scene "
       "of a bed, and how many beds of each scene give its mean. With --ends how many contacts along its "
-      "width "
-      "a drum that tilts needs.");
+      "width a drum that tilts needs.");
   command->footer("Examples:\n"
                   "  drumlin advise --error 1e-3 --case II\n"
                   "  drumlin advise --bed --question force --within 20%\n"

@@ -508,8 +508,7 @@ void add_bed_command(CLI::App &app, Session &) {
                   grading_names()));
   text_option(bed, "--cut", "NUMBER", arguments->cut,
               "smallest size of a ball with --sieve [mm]; default: so that the balls fill the box to "
-              "--height, or to "
-              "half its width");
+              "--height, or to half its width");
   bed->add_option(
          "--layer", arguments->layers,
          "a layer of the bed, the lowest first; several form a bed of layers with contacts of their own: its "

@@ -235,11 +235,9 @@ void add_calibrate_command(CLI::App &app, Session &session) {
   CLI::App *calibrate = app.add_subcommand(
       "calibrate",
       "Parameters of a bed's contacts with which it meets targets: stiffness and damping that a roller "
-      "feels, "
-      "settlement, plate modulus, friction angle. Runs the decks on beds of several seeds, and writes a "
-      "page, "
-      "evaluations.csv and a file case.NAME for the decks. An interrupted calibration continues where it was "
-      "interrupted.");
+      "feels, settlement, plate modulus, friction angle. Runs the decks on beds of several seeds, and writes "
+      "a page, evaluations.csv and a file case.NAME for the decks. An interrupted calibration continues "
+      "where it was interrupted.");
   std::string quantities, parameters;
   for (const SoilQuantity &quantity : soil_quantities)
     quantities += fmt::format("{}{}, {}", quantities.empty() ? "" : "; ", quantity.name, quantity.meaning);
@@ -258,8 +256,8 @@ void add_calibrate_command(CLI::App &app, Session &session) {
        "NAME=LOW:HIGH, once for each parameter, no more than targets. " + parameters, "RANGE");
   list("--set", &Arguments::fixed,
        "NAME=VALUE, another value than case gravel has: of these parameters, or of the roller's variables "
-       "m2, m3, r2, r3, "
-       "k23, c23, omega or frequency [Hz], Fw; m2, m3, k23, c23, Fw per metre of the drum's width",
+       "m2, m3, r2, r3, k23, c23, omega or frequency [Hz], Fw; m2, m3, k23, c23, Fw per metre of the drum's "
+       "width",
        "SETTING");
   add_roller_options(*calibrate, arguments->roller, "The roller, instead of that of case gravel");
   text_option(calibrate, "--seeds", "COUNT", arguments->seeds, "beds at each point, 2 or more");

@@ -263,12 +263,10 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
       "do not use positions and velocities of the record: what a roller with accelerometers has");
   identify->add_flag("--anyway", arguments->anyway,
                      "show a result that contradicts itself, or of a filtered record");
-  identify->add_flag(
-      "--compare", arguments->compare,
-      "solve the chain with this k and D, and draw it over the record: acceleration, force "
-      "loop, share of contact, "
-      "CMV, with what a spring and a dashpot cannot do; needs the bond, from parameters.csv of "
-      "a run or --roller");
+  identify->add_flag("--compare", arguments->compare,
+                     "solve the chain with this k and D, and draw it over the record: acceleration, force "
+                     "loop, share of contact, CMV, with what a spring and a dashpot cannot do; needs the "
+                     "bond, from parameters.csv of a run or --roller");
   text_option(
       identify, "--origin", "WORD", arguments->origin,
       "known: x_drum = 0 is where drum and soil just touch (chain.csv); free: unknown, for each contact (all "
@@ -276,13 +274,11 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
   text_option(
       identify, "--phase-within", "NUMBER", arguments->phase_within,
       "largest error of the exciter's phase [degrees], 0 to 20: the phase is then fitted as far as the "
-      "record "
-      "tells it; 0 if not given");
+      "record tells it; 0 if not given");
   text_option(
       identify, "--least-force", "NUMBER", arguments->least_force,
       "forces up to this share of the largest one [%] are not fitted, unless the law follows them, 0 to 90; "
-      "if not "
-      "given 0 for chain.csv, 20 for all others, since soil that a drum just touches is softer");
+      "if not given 0 for chain.csv, 20 for all others, since soil that a drum just touches is softer");
   for (const auto &[name, into, what] :
        {std::tuple{"--m2-tolerance", &arguments->m2_tolerance, "the mass of the drum"},
         std::tuple{"--m3-tolerance", &arguments->m3_tolerance, "the mass of the frame"},

@@ -543,14 +543,12 @@ void print_map(const MapArguments &arguments) {
 
 void add_map_command(CLI::App &app, Session & /*session*/) {
   const auto arguments = std::make_shared<MapArguments>();
-  CLI::App *map =
-      app.add_subcommand("map", "Which motion a roller comes to, over two numbers of the chain "
-                                "or along one: continuous contact, partial "
-                                "uplift, period 2 (double jump), higher period, aperiodic; CMV, "
-                                "RMV, peak force and share of contact. With --x alone all that its meter "
-                                "shows, where a value means several stiffnesses, and what identify finds. "
-                                "Writes CSV "
-                                "files and plots. An interrupted map continues where it was interrupted.");
+  CLI::App *map = app.add_subcommand(
+      "map", "Which motion a roller comes to, over two numbers of the chain "
+             "or along one: continuous contact, partial uplift, period 2 (double jump), higher period, "
+             "aperiodic; CMV, RMV, peak force and share of contact. With --x alone all that its meter "
+             "shows, where a value means several stiffnesses, and what identify finds. "
+             "Writes CSV files and plots. An interrupted map continues where it was interrupted.");
   add_chain_options(*map, arguments->chain);
   text_option(map, "--x", "AXIS", arguments->x,
               "axis NAME:FROM:TO:COUNT or NAME:FROM:TO:COUNT:log, NAME one of k, D, omega, "
@@ -566,10 +564,9 @@ void add_map_command(CLI::App &app, Session & /*session*/) {
   text_option(
       map, "--contacts", "COUNT", arguments->contacts,
       fmt::format("a drum with two ends on 2 to {} contacts along its width, which share k and D (eight or "
-                  "more where an end leaves the soil): whether its "
-                  "ends lift off together or by turns; then a NAME of an axis may be ratio, of k and c "
-                  "below the left half to those below the right one; without axes k:5e6:100e6:39 over "
-                  "ratio:1:4:25:log",
+                  "more where an end leaves the soil): whether its ends lift off together or by turns; then "
+                  "a NAME of an axis may be ratio, of k and c below the left half to those below the right "
+                  "one; without axes k:5e6:100e6:39 over ratio:1:4:25:log",
                   most_contacts));
   text_option(map, "--cycles", "COUNT", arguments->cycles,
               "cycles of the excitation at each point, 100 or more");

@@ -208,13 +208,10 @@ void add_meter_command(CLI::App &app, Session & /*session*/) {
               "constant of RMV, 100 or 300 in sources");
   text_option(meter, "--same", "NUMBER", arguments->same,
               "relative difference of the harmonics of two cycles up to which they count as the same "
-              "motion; more for "
-              "noisy records");
+              "motion; more for noisy records");
   text_option(meter, "--window", "COUNT", arguments->window,
               "cycles in a window, an even number of 4 or more, or seconds such as 0.5s, or of a roller "
-              "that drives metres such as 0.5m; without it 10 "
-              "cycles, or all of a "
-              "shorter record");
+              "that drives metres such as 0.5m; without it 10 cycles, or all of a shorter record");
   add_way_options(*meter, arguments->way);
   add_drum_options(*meter, arguments->drum);
   text_option(meter, "--out", "DIR", arguments->out,

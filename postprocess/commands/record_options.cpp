@@ -169,13 +169,12 @@ void add_record_options(CLI::App &command, RecordArguments &arguments) {
           "continue one another")
       ->required();
   command
-      .add_option(
-          "--column", arguments.columns,
-          "where a signal stands in a measured file, and in which unit: NAME=HEADER or "
-          "NAME=HEADER:UNIT, where HEADER may be the column's number; NAME is "
-          "time, x_drum, v_drum, a_drum (up positive), the same with frame, a_left and a_right at both "
-          "ends of the drum, F_contact (compression positive) or "
-          "F_excitation (down positive); a '-' before the unit turns the sign")
+      .add_option("--column", arguments.columns,
+                  "where a signal stands in a measured file, and in which unit: NAME=HEADER or "
+                  "NAME=HEADER:UNIT, where HEADER may be the column's number; NAME is time, x_drum, v_drum, "
+                  "a_drum (up positive), the same with frame, a_left and a_right at both "
+                  "ends of the drum, F_contact (compression positive) or F_excitation (down positive); a '-' "
+                  "before the unit turns the sign")
       ->type_name("NAME=HEADER:UNIT")
       ->expected(1)
       ->take_all()

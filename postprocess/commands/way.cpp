@@ -53,8 +53,8 @@ void add_way_command(CLI::App &app, Session & /*session*/) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App *way = app.add_subcommand(
       "way", "Write a way, the soil that a roller meets, for `exact --way`: k is a random field along it, "
-             "log-normal, "
-             "whose logarithm is correlated as exp(-distance/length). The same options give the same way.");
+             "log-normal, whose logarithm is correlated as exp(-distance/length). The same options give the "
+             "same way.");
   text_option(way, "--mean", "NUMBER", arguments->mean, "mean of k [N/m]")->required();
   text_option(way, "--variation", "NUMBER", arguments->variation,
               "coefficient of variation of k: standard deviation over mean [-]")

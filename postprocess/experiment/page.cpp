@@ -319,9 +319,9 @@ std::string effects_words(const std::vector<Effect> &effects, const std::vector<
   constexpr double by_chance = 0.05; // outside of a 95 % interval
   return fmt::format(
       "Changes of one quantity between two scenes: {}, of them {} larger than the scatter of the "
-      "seeds (95 % confidence interval without zero), where by chance {:.0f} would be. The first "
-      "table says which.",
-      all, changes, by_chance * static_cast<double>(all));
+      "seeds (95 % confidence interval without zero), where by chance {} would be. The first table says "
+      "which.",
+      all, changes, rounded(by_chance * static_cast<double>(all), 1));
 }
 
 std::string cost_words(const Plan &plan, const Results &results) {

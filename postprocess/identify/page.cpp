@@ -354,10 +354,8 @@ void write_identification_page(const std::filesystem::path &out, const Identifie
       "velocity together, each weighted by its own scatter. Confidence intervals allow any correlation of "
       "the residuals within a contact (or a cycle of one that lasts longer). They cover scatter and the "
       "phase, not what the law leaves out: a pattern in the residuals shows that. Where the equations of "
-      "motion "
-      "of drum, frame, bond and soil follow a measured record, k and c of all of it are those of this "
-      "motion, "
-      "with the intervals of its noise; windows, loop and residuals are those of single contacts.");
+      "motion of drum, frame, bond and soil follow a measured record, k and c of all of it are those of this "
+      "motion, with the intervals of its noise; windows, loop and residuals are those of single contacts.");
   page.write();
 }
 
@@ -418,8 +416,7 @@ std::vector<std::string> identification_answer(const TwoSidedRecord &record) {
   lines.push_back(fmt::format(
       "From the whole motion of drum and frame with their tilts: one motion follows {:.4g} cycles and leaves "
       "{:.2g} m/s2 of the acceleration of the drum's left end{}; condition {} {}; the bond has {:.4g} MN/m "
-      "and "
-      "{:.4g} kN s/m{}.",
+      "and {:.4g} kN s/m{}.",
       motion.cycles, motion.residual,
       motion.is_noise ? ", which is noise" : fmt::format(", {:.2g} % of it", 100.0 * record.left),
       motion.pulls ? "A" : "B", motion.pull_is_clear ? "fits better" : "is as good as the other one",
@@ -460,11 +457,10 @@ void write_identification_page(const std::filesystem::path &out, const TwoSidedR
       "The forces below both halves follow from the equations of motion of drum and frame, of their heights "
       "and of their tilts, with a contact below each half at the width of the drum over the root of 12 from "
       "its middle. From k and c of single contacts these equations follow the record from contact to "
-      "contact, "
-      "through flights and landings of either end; k and c of both halves, the bond, phase and frequency of "
-      "the exciter, offset and drift of each sensor and the state at the start of each stretch of cycles "
-      "minimize the squared residuals. The tilt of the frame, which no sensor measures, follows from the "
-      "bond. Intervals are those of the noise.");
+      "contact, through flights and landings of either end; k and c of both halves, the bond, phase and "
+      "frequency of the exciter, offset and drift of each sensor and the state at the start of each stretch "
+      "of cycles minimize the squared residuals. The tilt of the frame, which no sensor measures, follows "
+      "from the bond. Intervals are those of the noise.");
   page.write();
 }
 

@@ -87,10 +87,8 @@ std::string text_of(std::optional<double> value, const char *format, double scal
 PageTable value_table(const MeterResult &result) {
   PageTable table("windows", "Values over each window",
                   "mode | begin (s) | CMV (-) | off by at most (-) | RMV (-) | CCV (-) | share of contact "
-                  "(-) | peak force "
-                  "(kN) | energy in two cycles (J) | k_B: soil and frame (MN/m) | k_1: without the frame "
-                  "(MN/m) | c_1 (kN "
-                  "s/m) | E_vib (MPa)");
+                  "(-) | peak force (kN) | energy in two cycles (J) | k_B: soil and frame (MN/m) | k_1: "
+                  "without the frame (MN/m) | c_1 (kN s/m) | E_vib (MPa)");
   for (const MeterWindow &w : result.windows)
     table.add({mode_name(w), fmt::format("{:.4g}", w.begin), text_of(w.cmv, "{:.2f}"),
                result.cycles.source == HarmonicSource::every_step ? no_value : text_of(w.cmv_bound, "{:.2g}"),
@@ -98,10 +96,10 @@ PageTable value_table(const MeterResult &result) {
                text_of(w.peak_force, "{:.1f}", 1e-3), text_of(w.energy, "{:.1f}"),
                text_of(w.k_B, "{:.2f}", 1e-6), text_of(w.k_1, "{:.2f}", 1e-6), text_of(w.c_1, "{:.1f}", 1e-3),
                text_of(w.E_vib, "{:.1f}", 1e-6)});
-  table.notes = {source_words(result), "In continuous contact k_1 and c_1 are the soil's, and k_B contains "
-                                       "the force of the frame, too; in other "
-                                       "modes they are apparent values. " +
-                                           std::string(no_value) + ": the record does not give it."};
+  table.notes = {source_words(result),
+                 "In continuous contact k_1 and c_1 are the soil's, and k_B contains "
+                 "the force of the frame, too; in other modes they are apparent values. " +
+                     std::string(no_value) + ": the record does not give it."};
   if (const std::string words = width_words(result); !words.empty()) table.notes.push_back(words);
   return table;
 }
@@ -291,8 +289,7 @@ std::string width_words(const MeterResult &result) {
                    : "";
   if (std::isnan(*thickness))
     return "The thickness of the bed is not noted: E_vib is left out; forces, energy and stiffnesses are "
-           "those "
-           "of the bed.";
+           "those of the bed.";
   std::string words =
       fmt::format("Forces, energy and stiffnesses are those of {:g} m of the drum", *thickness);
   if (modulus)

@@ -256,8 +256,7 @@ const std::array<Scene, 13> scenes = {{
      wall_drawing},
     {"A drum with two ends",
      "The model, seen along the way of travel: frame and drum move up and down and tilt. Each contact is "
-     "made "
-     "and broken by itself.",
+     "made and broken by itself.",
      two_ends_drawing, 310},
 }};
 

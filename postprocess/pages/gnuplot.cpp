@@ -285,8 +285,7 @@ std::string figure_script(const Figure &figure, const std::vector<bool> &is_empt
                    "  if (kind eq \"svg\") {{ set terminal svg size {0},{1} enhanced rounded font 'DejaVu "
                    "Sans,Helvetica,Arial,15' background '#ffffff' }}\n"
                    "  else {{ set terminal pngcairo size {2},{3} enhanced rounded fontscale 1.5 linewidth "
-                   "1.5 pointscale 1.5 font "
-                   "'DejaVu Sans,11.5' background '#ffffff' }}\n",
+                   "1.5 pointscale 1.5 font 'DejaVu Sans,11.5' background '#ffffff' }}\n",
                    width, height, width * 3 / 2, height * 3 / 2, figure.only_png ? "png" : "svg png");
   s += fmt::format("  set output \"{}.\".kind\n", figure.name);
   if (many)

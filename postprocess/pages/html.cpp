@@ -328,8 +328,8 @@ std::string figure_html(const PageFigure &figure) {
       "<figure id=\"{0}\">\n<a href=\"figures/{0}{6}\"><img src=\"figures/{0}{6}\" alt=\"{1}\" "
       "width=\"{4}\" height=\"{5}\" /></a>\n"
       "<figcaption><strong>{2}.</strong> {3} <span class=\"links\">[<a href=\"data/{0}.csv\">CSV</a>, "
-      "<a href=\"figures/{0}.png\">PNG</a>, {7}"
-      "<a href=\"figures/{0}.gp\">gnuplot script</a>]</span></figcaption>\n</figure>\n",
+      "<a href=\"figures/{0}.png\">PNG</a>, {7}<a href=\"figures/{0}.gp\">gnuplot "
+      "script</a>]</span></figcaption>\n</figure>\n",
       name, html_escaped(figure.figure.title), html_escaped(figure.label), html_escaped(figure.caption),
       figure_width(figure.figure), figure_height(figure.figure), ending,
       ending == ".png"

@@ -377,8 +377,7 @@ TEST_F(BedDriven, RefusesAWayThatItCannotDrive) {
   };
   refused({{"passes", "0"}}, "ERROR: drumlin/variable: variable passes is '0'; allowed: ");
   refused({{"length", "0.09"}}, "ERROR: drumlin/variable: variable length is '0.09'; allowed: a finite "
-                                "number above 0.1, so that it is longer "
-                                "than both ramps");
+                                "number above 0.1, so that it is longer than both ramps");
   refused({{"length", "0.7"}},
           "ERROR: drumlin/check: variable length is '0.7'; allowed: a finite number below 0.6, ");
   refused({{"margin", "0.1"}}, "ERROR: drumlin/variable: variable margin is '0.1'; allowed: ");

@@ -265,9 +265,9 @@ inline std::string roller_text(const std::string &file) {
   in.read(text.data(), static_cast<std::streamsize>(largest));
   const auto size = static_cast<std::size_t>(in.gcount());
   if (!in.is_open() || size == 0 || size == largest)
-    throw std::invalid_argument("roller is '" + roller_file::shown(file) +
-                                "'; allowed: a file that can be read, "
-                                "of lines of a name, a number and its unit");
+    throw std::invalid_argument(
+        "roller is '" + roller_file::shown(file) +
+        "'; allowed: a file that can be read, of lines of a name, a number and its unit");
   text.resize(size);
   const std::string byte_order_mark = "\xEF\xBB\xBF";
   return text.compare(0, 3, byte_order_mark) == 0 ? text.substr(3) : text;

@@ -208,11 +208,9 @@ Found found_in(const Points &points) {
 
 constexpr const char *what_records_are =
     "Records of 40 cycles, 250 samples in each. Exact: positions, velocities and accelerations without "
-    "noise. "
-    "Noisy accelerations, as a real roller has them: those of drum and frame alone, with white noise of 1 % "
-    "of "
-    "their standard deviation; the phase of the exciter is off by 0.5 degrees and known within 1 degree. "
-    "Intervals are of 95 %.";
+    "noise. Noisy accelerations, as a real roller has them: those of drum and frame alone, with white noise "
+    "of 1 % of their standard deviation; the phase of the exciter is off by 0.5 degrees and known within 1 "
+    "degree. Intervals are of 95 %.";
 
 PageTable found_table(const std::vector<CourseRoller> &rollers, const Points &points) {
   PageTable table("identified_k", "What identify finds in records of this motion",
@@ -348,9 +346,8 @@ std::string identification_words(const Points &points) {
 
 constexpr const char *what_stiffnesses_are =
     "k_B, k_1 and c_1 are stiffness and damping at the excitation frequency. k_B is computed from the mass "
-    "of "
-    "the drum alone and contains the force of the frame on it; k_1 and c_1 are without the frame and are the "
-    "soil's in continuous contact. In other regimes all are apparent values. The page on meters has the "
+    "of the drum alone and contains the force of the frame on it; k_1 and c_1 are without the frame and are "
+    "the soil's in continuous contact. In other regimes all are apparent values. The page on meters has the "
     "formula and the source of each value.";
 
 } // namespace

@@ -64,8 +64,7 @@ std::string words_of(const BedGroup &group) {
                   frequency, run.chain.m2, per, run.chain.m3, per);
   if (group.several())
     words += " Lines are means over the beds of a condition, thin lines the least and the largest of them; "
-             "pictures "
-             "show the first bed of each.";
+             "pictures show the first bed of each.";
   return words;
 }
 
@@ -78,14 +77,15 @@ std::string force_unit(const std::vector<BedResult> &beds) {
 }
 
 PageTable motion_table(const std::vector<BedResult> &beds) {
-  PageTable motion("bed_runs", "Motion of the roller",
-                   fmt::format("run | transition | friction (-) | balls | frequency (Hz) | cycles (-) | "
-                               "steady cycles | largest drum "
-                               "acceleration (m/s²) | largest contact force ({0}) | smallest contact force "
-                               "({0}) | share of time in "
-                               "contact (-) | CMV (-) | stepping | steps per cycle | ranks | command",
-                               force_unit(beds)),
-                   2);
+  PageTable motion(
+      "bed_runs", "Motion of the roller",
+      fmt::format(
+          "run | transition | friction (-) | balls | frequency (Hz) | cycles (-) | "
+          "steady cycles | largest drum acceleration (m/s²) | largest contact force ({0}) | smallest contact "
+          "force ({0}) | share of time in contact (-) | CMV (-) | stepping | steps per cycle | ranks | "
+          "command",
+          force_unit(beds)),
+      2);
   motion.section = "bed";
   motion.shown_columns = motion.header.size() - 4;
   for (const BedResult &result : beds) {

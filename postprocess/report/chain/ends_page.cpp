@@ -385,9 +385,8 @@ PageTable meter_table(const std::vector<EndsResult> &results) {
       "the displacement at the excitation frequency; at an end with the acceleration of the sensor there and "
       "the force on the whole drum. Error: k_1 at an end over k_1 in the middle, less 1; if the "
       "roller turns round, the way back has both ends exchanged. k_1 of a half: force over displacement of "
-      "that half. In "
-      "unbroken contact it is the stiffness of the soil there; with loss of contact all of these are "
-      "apparent.");
+      "that half. In unbroken contact it is the stiffness of the soil there; with loss of contact all of "
+      "these are apparent.");
   return table;
 }
 

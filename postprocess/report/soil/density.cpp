@@ -50,8 +50,7 @@ PageTable soil_table(const std::vector<DensityRun> &runs) {
                mean(1, &DensityRow::solid_fraction)});
   }
   table.notes = {"Behind ± is half of the 95 % confidence interval of the mean over runs, which differ in "
-                 "their seeds. In two dimensions "
-                 "void ratios and solid fractions are those of areas."};
+                 "their seeds. In two dimensions void ratios and solid fractions are those of areas."};
   return table;
 }
 

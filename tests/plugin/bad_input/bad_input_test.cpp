@@ -105,8 +105,7 @@ const std::string &bed_file(const std::string &stage) {
     well(run_host(host_pair_style() + host_properties(),
                   "drumlin/write restart bed.restart bed " + stage +
                       " case gravel dimension 2 walls 1 stepping stock g 9.81 tangential "
-                      "coulomb rolling_history 1 k 1e9 D 0.3 "
-                      "friction 0.8 rolling 0.3" +
+                      "coulomb rolling_history 1 k 1e9 D 0.3 friction 0.8 rolling 0.3" +
                       (stage == "soil" ? ""
                                        : " drum ball m2 2000 m3 1000 r2 0.35 r3 0.25 rc 0.02 drum_depth 0.01 "
                                          "k23 1e6 c23 1e4") +

@@ -101,8 +101,7 @@ BadGroup drum_travel() {
        "keyword inertia is '5' ... rotation driven or towed only"},
       {"drum of several balls", "fix travel roller drum/travel from 0 to 1 speed 1 rotation driven",
        "keyword drum is 'roller', a group of 2 balls, of which 2 drive ... one ball that drives, the group "
-       "of "
-       "a fix clump that drives, or rotation none",
+       "of a fix clump that drives, or rotation none",
        on_two_ranks},
       {"a clump that is not the drum",
        "fix body drum clump\nfix travel roller drum/travel from 0 to 1 speed 1 rotation towed",
@@ -186,8 +185,7 @@ BadGroup contact_way() {
        "keyword travel is 'gravity' ... the ID of a fix drum/travel", on_two_ranks},
       {"a way too short",
        file + "fix travel drum drum/travel from 0 to 2.5 speed 1 axis z up 1 0 0\n@ file out/way.csv travel "
-              "travel "
-              "between soil drum",
+              "travel between soil drum",
        "way of 'out/way.csv' is '0 to 2 m' ... one that has the places 0 to 2.5 m of fix travel",
        on_two_ranks},
       {"groups of several types", file + travel + "@ file out/way.csv travel travel between soil roller",

@@ -423,8 +423,7 @@ TEST_F(ExactCommand, RefusesContactsThatTheDrumCannotHave) {
            {head, roller, "number of rows of 'w.csv' is '0'; allowed: 1 to 32"},
            {head + "-1.1,1e7,0\n0.6,1e7,0\n", roller,
             "y in line 2 of 'w.csv' is '-1.1'; allowed: a number from -1.065 to 1.065 [m], within the width "
-            "of "
-            "the drum"},
+            "of the drum"},
            {head + "-1,1e7,0\n1,0,0\n", roller,
             "k in line 3 of 'w.csv' is '0'; allowed: a number from 1e-06 to 1e+15 [N/m]"},
            {head + "-1,1e7,-1\n1,1,0\n", roller,
@@ -433,8 +432,7 @@ TEST_F(ExactCommand, RefusesContactsThatTheDrumCannotHave) {
             "k in line 2 of 'w.csv' is 'x'; allowed: a number from 1e-06 to 1e+15 [N/m]"},
            {head + "0.2,1e7,1\n1,1e7,0\n", roller,
             "--contacts is 'at 0.2 to 1 m'; allowed: on both sides of the drum's middle, or all in it: else "
-            "it "
-            "has nothing to rest on"}}) {
+            "it has nothing to rest on"}}) {
     std::ofstream(folder_ / "w.csv") << text;
     const Outcome outcome =
         run("exact " + options + (options == roller ? " --contacts w.csv" : "") + " --out o");

@@ -321,8 +321,9 @@ TEST(ExperimentPage, SaysWhatDiffersByHowMuchAndWhatIsMissing) {
   const fs::path &folder = temporary.path();
   post::write_experiment_page(folder, made_up_plan(), Results(rows), {"seed 4, A: failed"});
   const std::string page = post::read_text(folder / "index.html");
-  for (const char *words : {"Missing: seed 4, A: failed", "+20.10 ± 0.12 *",
-                            "A instead of B (+20 %, time x 2)", "+0.20 ± 0.25", "static load [kN/m]"})
+  for (const char *words :
+       {"Missing: seed 4, A: failed", "+20.10 ± 0.12 *", "A instead of B (+20 %, time x 2)", "+0.20 ± 0.25",
+        "static load [kN/m]", "scenes: 2, of them 1 larger", "by chance 0.1 would be"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   expect_sound_page(folder, 2, "index.html", 0);
 }

@@ -175,14 +175,10 @@ TEST_F(BedReport, OpensWithTheNumbersOfItsTables) {
       "1000 kg/m, exciter 58.8 kN/m at 20 Hz. After 6 cycles the drum has settled by 36 mm (mean over the "
       "last cycle); the largest contact force on it in the last 4 cycles is 6.0 kN/m. One bed is one sample: "
       "beds that differ in their seed alone scatter by 18 % in the largest force and acceleration, by 14 % "
-      "in "
-      "the share of contact and by 3.3 mm in the settlement of a cycle (standard deviations over five beds "
-      "of "
-      "case gravel in two dimensions, inputs/study/fidelity/findings.md). The void ratio of the bed, "
-      "at "
-      "first 0.25, changes by -0.050, the number of contacts per ball, at first 3.3, by 1.7. The energy "
-      "error, a "
-      "check of the integration alone, is 9.0 % of the exciter&#39;s work.";
+      "in the share of contact and by 3.3 mm in the settlement of a cycle (standard deviations over five "
+      "beds of case gravel in two dimensions, inputs/study/fidelity/findings.md). The void ratio of the bed, "
+      "at first 0.25, changes by -0.050, the number of contacts per ball, at first 3.3, by 1.7. The energy "
+      "error, a check of the integration alone, is 9.0 % of the exciter&#39;s work.";
   for (const char *page : {"index.html", "bed.html"})
     EXPECT_TRUE(contains(read_text(out / page), words)) << page << read_text(out / page).substr(6000, 2500);
   const std::string text = read_text(out / "bed.html");
