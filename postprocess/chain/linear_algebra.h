@@ -6,10 +6,11 @@
 
 namespace drumlin::post {
 
-/// Eigenvalues of a square matrix, unsorted; all NaN if an element is not finite.
+/// The eigenvalues of a square matrix in no particular order; all NaN if the matrix has an infinite or NaN
+/// element.
 Eigen::VectorXcd eigenvalues_of(const Eigen::Ref<const Eigen::MatrixXd> &matrix);
 
-/// x of A x = b for a square A, by elimination with full pivoting.
+/// The solution x of A x = b for a square matrix A, by LU decomposition with full pivoting.
 Eigen::VectorXd solution_of(const Eigen::Ref<const Eigen::MatrixXd> &A,
                             const Eigen::Ref<const Eigen::VectorXd> &b);
 

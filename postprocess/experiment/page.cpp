@@ -16,7 +16,8 @@ namespace drumlin::post {
 
 namespace {
 
-/// A name of the plan as a label of a figure: gnuplot would make a subscript of what follows an underscore.
+/// A name of the plan as gnuplot must be given it to draw it unchanged: an underscore alone makes the next
+/// letter a subscript.
 std::string as_written(const std::string &name) {
   std::string label;
   for (const char c : name)
@@ -45,7 +46,8 @@ std::string rounded(double value, int digits, bool with_sign = false) {
   return (with_sign && !(value < 0.0) ? "+" : "") + text;
 }
 
-/// A mean and its half width, rounded to two digits of the half width, or to whole numbers from 10 on.
+/// "MEAN +- HALF WIDTH": both with as many decimals as give the half width two digits, and with none if it is
+/// 10 or more.
 std::string interval_text(const MeanInterval &interval, double scale, bool with_sign = false) {
   const double mean = scale * interval.mean, half_width = scale * interval.half_width;
   if (!std::isfinite(half_width)) return rounded(mean, 3, with_sign) + " (one)";

@@ -71,9 +71,10 @@ std::optional<Change> change_of(const Results &results, const Comparison &compar
                                 const std::string &quantity);
 
 /// The quantities in the units in which pages show them. Lengths are in mm if all values are below 1 m;
-/// forces, energies and stiffnesses get k or M if the largest is 1000 or more. A quantity that is positive in
-/// some runs and negative in others becomes absolute: its changes are in its own unit instead of percent, and
-/// a change is negligible if it is within a tenth of the largest mean of a scene.
+/// forces, energies and stiffnesses are in kN, kJ, kN/m and so on if the largest value is 1000 or more, and
+/// in MN, MJ, MN/m from 1e6 on. Changes of a quantity that is positive in some runs and negative in others
+/// are given in its unit instead of in percent, and count as negligible if they are smaller than a tenth of
+/// the largest mean of all scenes.
 std::vector<Quantity> as_shown(std::vector<Quantity> quantities, const Results &results);
 
 /// What a comparison finds.

@@ -31,11 +31,11 @@ struct MeterCycle {
 /// The cycles of a record, in order, and what they come from.
 struct MeterRecord {
   HarmonicSource source = HarmonicSource::acceleration;
-  double omega = 0.0;          ///< [rad/s]
-  double interval = 0.0;       ///< between samples [s]; 0 without samples
-  double noise = 0.0;          ///< of the samples, as in SignalFaults
-  bool filtered = false;       ///< the samples have passed a filter; the harmonics are free of it
-  bool vibrates = true;        ///< false: the exciter is off (Fw is 0), so that there are no meter values
+  double omega = 0.0;    ///< [rad/s]
+  double interval = 0.0; ///< between samples [s]; 0 without samples
+  double noise = 0.0;    ///< of the samples, as in SignalFaults
+  bool filtered = false; ///< the samples have passed a filter; the harmonics are free of it
+  bool vibrates = true;  ///< whether the exciter is on (Fw is not 0); without it there are no meter values
   bool computed_force = false; ///< the contact force is not recorded but computed from the accelerations
   /// Width of drum and soil whose forces the record has [m]: 1 of a bed in two dimensions, the thickness of
   /// one in three; none: the whole drum's. NaN: not known.

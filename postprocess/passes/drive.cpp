@@ -45,7 +45,7 @@ void check_deck(const fs::path &folder, const Parameters &parameters) {
                 "drive, a run of inputs/bed/in.drive");
 }
 
-/// The spots of the bed, "FROM:TO,FROM:TO" [m].
+/// The spots that parameters.csv notes as "FROM:TO,FROM:TO" [m].
 std::vector<WayPart> noted_spots(const fs::path &folder, const Parameters &parameters) {
   const auto noted = parameters.find("spots");
   if (noted == parameters.end() || noted->second == "none") return {};

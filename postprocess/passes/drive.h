@@ -47,13 +47,13 @@ struct Drive {
   std::filesystem::path folder;
   Record record;
   DriveHistory history;       ///< row by row as the record
-  WayPart measured;           ///< the middle part of the way, on which is measured
+  WayPart measured;           ///< the middle part of the way, for which passes are evaluated
   double speed = 0.0;         ///< m/s
   double timestep = 0.0;      ///< s
-  double thickness = 1.0;     ///< m, of the bed along the drum's axis; 1 in two dimensions
+  double thickness = 1.0;     ///< of the bed along the drum's axis, m; 1 m in two dimensions
   bool flat = true;           ///< two dimensions
   int layers = 1;             ///< of soil
-  std::vector<WayPart> spots; ///< of the lowest layer, as `drumlin bed --spot` makes them
+  std::vector<WayPart> spots; ///< soft or stiff parts of the lowest layer (`drumlin bed --spot`)
   std::vector<DrivenPass> passes;
   std::vector<DumpedBed> states;  ///< before the first pass and after each
   std::vector<std::string> notes; ///< what was left out and why, sentences

@@ -28,7 +28,7 @@ struct MapValue {
 struct MeterMap {
   std::string meter = "CMV", unit = "-"; ///< "?": not known
   double cell = 0.0;                     ///< m, side of a cell
-  std::vector<WayPart> spots;            ///< of the ground, along the way, the same in all areas
+  std::vector<WayPart> spots;            ///< soft or stiff parts of the ground; the same in all areas
   std::vector<MapPlace> places;
   std::vector<MapValue> values; ///< by pass, then by place; at most one for each of both
 
@@ -98,9 +98,9 @@ std::string variogram_csv(const MeterMap &map, const std::vector<VariogramRow> &
 /// In one sentence: mean, scatter and gain of the last pass, coverage if there is a target.
 std::string answer_of(const MeterMap &map, const std::vector<PassCells> &rows, const AcceptanceRule &rule);
 
-/// Of each spot, in one sentence: the mean of the cells whose middle lies on it, that of those that lie
-/// beside all spots, and their difference, of several runs with its 95 % interval. None for a spot without
-/// such cells in every area.
+/// A sentence for each spot that compares two means of the meter value: that of the cells whose middle lies
+/// on the spot, and that of the cells no part of which lies on any spot. Of several runs it gives the 95 %
+/// confidence interval of the difference. A spot is left out if some area has no cells of one of both kinds.
 std::vector<std::string> answers_on_spots(const MeterMap &map);
 
 } // namespace drumlin::post

@@ -71,7 +71,7 @@ struct PassDumps {
 struct PassesResult {
   std::filesystem::path folder;
   WayPart measured;
-  std::vector<WayPart> spots;          ///< of the lowest layer
+  std::vector<WayPart> spots;          ///< soft or stiff parts of the lowest layer
   double speed = 0.0, frequency = 0.0; ///< m/s, Hz
   double cell = 0.0;                   ///< m
   bool flat = true;

@@ -109,7 +109,7 @@ struct Record : ChainHistory {
   double cycles() const;
 };
 
-/// Keeps the samples from `first` to before `end` of everything that a record has sample by sample.
+/// Removes all samples before `first`, and `end` and those behind it, from every signal of a record.
 void keep_samples(Record &record, std::size_t first, std::size_t end);
 
 /// Where a signal stands in a measured file, and in which unit.

@@ -250,7 +250,7 @@ TEST(Meter, StiffnessAndEnergyInContinuousContact) {
   EXPECT_LT(*window.cmv, 1e-3);
 }
 
-// Without excitation the harmonics of the drum tell nothing about the soil.
+// With the exciter off the drum does not shake, so that no meter value tells anything about the soil.
 TEST(Meter, OfARollerThatDoesNotVibrateHasNoValues) {
   Record record = record_of(table1_case("I", Transition::B), 100, 400);
   record.Fw = 0.0;

@@ -69,8 +69,9 @@ TEST(MeterMap, CountsCellsAsRulesOfAcceptanceDo) {
       contains(answer_of(map, cells_of_passes(map, {}), {}), {"without a target", "nothing is judged"}));
 }
 
-// Cells of 0.34 m, of which the second and third have their middles on the spot, and the fourth has a part on
-// it. In the mean of both passes the spot takes 11 from the first bed and 13 from the second: 12 +- 12.7.
+// Five cells of 0.34 m in two passes. The middles of the second and third lie on the spot; the fourth
+// overlaps it and counts neither as on it nor as beside it. On the spot CMV is lower by 11 in the first bed
+// and by 13 in the second, in the mean by 12 with a 95 % interval of +- 12.7.
 TEST(MeterMap, TellsCellsOnASpotFromThoseBeside) {
   MeterMap map = row_of_cells({{30, 18, 16, 1, 28}, {32, 20, 22, 1, 30}});
   map.meter = "CMV";

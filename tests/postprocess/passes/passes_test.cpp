@@ -493,7 +493,7 @@ TEST_F(Passes, AveragesOverSeeds) {
   EXPECT_NEAR(std::stod(table.text("CMV_interval [-]")[2]), t * 2.0 / std::sqrt(3.0), 1e-9);
   EXPECT_NEAR(std::stod(table.text("settlement [m]")[1]), 4 * 2e-3, 1e-12);
   EXPECT_NEAR(std::stod(table.text("settlement_interval [m]")[1]), t * 4e-3 / std::sqrt(3.0), 1e-12);
-  // Gains of about 1, 2 and 3: 2 +- 2.5.
+  // The gains of the three beds are about as 1, 2 and 3, so that the mean is 2 with an interval of +- 2.5.
   EXPECT_TRUE(contains(lines_of(outcome.output).front(),
                        {"2 passes change the lift", "no more than scatter", "over 3 beds: not significant"}));
   EXPECT_TRUE(fs::exists(folder_ / "results/passes/run-3/way.csv"));
