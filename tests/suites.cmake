@@ -1,0 +1,45 @@
+# Run by CMake when a test program has been built: writes a file for ctest with one test for each suite of
+# GoogleTest, so that a program is started once for a suite and not once for a case. Cases whose name matches
+# TWO_RANKS are a test of their own, which takes both cores; suites that begin with a word of TOGETHER, because
+# they share settled beds, are one test, which begins first.
+execute_process(COMMAND ${PROGRAM} --gtest_list_tests --gtest_filter=-${LEFT_OUT} OUTPUT_VARIABLE lines
+                COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX REPLACE "[;]|#[^\n]*" "" lines "${lines}") # names of parameters
+string(REPLACE "\n" ";" lines "${lines}")
+set(groups "")
+foreach(line IN LISTS lines)
+  string(STRIP "${line}" name)
+  if(line MATCHES "^[^ ].*[.] *$")
+    set(suite "${name}")
+    string(REGEX REPLACE "[.]$" "" group "${suite}")
+    if(TOGETHER AND suite MATCHES "^(${TOGETHER})")
+      set(group "${CMAKE_MATCH_1}")
+    endif()
+  elseif(line MATCHES "^ +[^ ]" AND NOT name MATCHES "^DISABLED_")
+    set(processors 1)
+    if(TWO_RANKS AND "${suite}${name}" MATCHES "${TWO_RANKS}")
+      set(processors 2)
+    endif()
+    list(APPEND groups "${group}|${processors}")
+    string(APPEND "cases_${group}|${processors}" ":${suite}${name}")
+  endif()
+endforeach()
+list(REMOVE_DUPLICATES groups)
+set(text "")
+foreach(each IN LISTS groups)
+  string(REGEX MATCH "^(.*)[|]([12])$" _ "${each}")
+  set(test "${PREFIX}.${CMAKE_MATCH_1}")
+  set(processors ${CMAKE_MATCH_2})
+  if(processors EQUAL 2)
+    string(APPEND test ".OnRanks")
+  endif()
+  set(cost "")
+  if(TOGETHER AND "${each}" MATCHES "^(${TOGETHER})[|]")
+    set(cost " COST 100")
+  endif()
+  string(REGEX REPLACE "^:" "" cases "${cases_${each}}")
+  string(APPEND text "add_test([==[${test}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${cases}]==])\n"
+                     "set_tests_properties([==[${test}]==] PROPERTIES TIMEOUT 1800 LABELS \"${LABELS}\""
+                     " PROCESSORS ${processors}${cost})\n")
+endforeach()
+file(WRITE ${FILE} "${text}")
