@@ -49,10 +49,16 @@ Outcome run_engine(const fs::path &deck, const std::vector<std::string> &words, 
   return run_program(command.words, environment, folder, 60.0);
 }
 
-Outcome run_host(const std::string &pair, const std::string &lines, const fs::path &folder, int ranks) {
+const fs::path host_deck = fs::path(DRUMLIN_SOURCE_DIR) / "tests/support/in.host";
+
+void write_host(const std::string &pair, const std::string &lines, const fs::path &folder) {
   write_text(folder / "pair", pair + "\n"); // the engine ignores a last line without its end
   write_text(folder / "lines", lines + "\n");
-  return run_engine(fs::path(DRUMLIN_SOURCE_DIR) / "tests/support/in.host", {}, folder, ranks);
+}
+
+Outcome run_host(const std::string &pair, const std::string &lines, const fs::path &folder, int ranks) {
+  write_host(pair, lines, folder);
+  return run_engine(host_deck, {}, folder, ranks);
 }
 
 Outcome run_lammps_host(const std::string &lines, const fs::path &folder, int ranks) {

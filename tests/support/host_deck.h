@@ -21,6 +21,10 @@ std::string host_properties(const std::string &text = "");
 Outcome run_engine(const std::filesystem::path &deck, const std::vector<std::string> &words,
                    const std::filesystem::path &folder, int ranks);
 
+/// The host deck, and the files that it reads: a pair style with properties, and the lines under test.
+extern const std::filesystem::path host_deck;
+void write_host(const std::string &pair, const std::string &lines, const std::filesystem::path &folder);
+
 /// Runs the host deck with a pair style (and properties) and the lines under test.
 Outcome run_host(const std::string &pair, const std::string &lines, const std::filesystem::path &folder,
                  int ranks);

@@ -1,0 +1,169 @@
+#include "tests/refused/refusals.h"
+
+#include "tests/support/host_deck.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <stdexcept>
+
+namespace drumlin::test {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path folder = fs::path(DRUMLIN_SOURCE_DIR) / "tests/refused";
+
+std::string replaced(std::string text, const std::string &what, const std::string &by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+bool begins_with(const std::string &text, const std::string &word) { return text.rfind(word, 0) == 0; }
+
+/// Reads one table, line by line.
+class Reader {
+public:
+  explicit Reader(const std::string &table) : file_(folder / table), lammps_(is_of_lammps(table)) {}
+
+  std::vector<Refusal> read() {
+    std::ifstream in(file_);
+    if (!in) throw std::runtime_error("cannot read " + file_.string());
+    for (std::string line; std::getline(in, line);) {
+      ++line_;
+      if (line.empty() || line[0] == '#') continue;
+      if (line.find(" | ") != std::string::npos)
+        row(line);
+      else if (line == "command" || begins_with(line, "command "))
+        command_ = line.substr(std::min<std::size_t>(line.size(), 8)), beginning_.clear();
+      else if (begins_with(line, "@ "))
+        beginning_ = line.substr(2);
+      else if (begins_with(line, "deck "))
+        deck_ = line.substr(5);
+      else
+        fail("'" + line + "'; allowed: WORDS | MESSAGE, command, @ or deck");
+    }
+    return std::move(rows_);
+  }
+
+private:
+  [[noreturn]] void fail(const std::string &what) const {
+    throw std::runtime_error(fmt::format("{}:{}: {}", file_.string(), line_, what));
+  }
+
+  void row(std::string line) {
+    Refusal row;
+    row.place = fmt::format("{}:{}", file_.string(), line_);
+    row.lammps = lammps_;
+    bool bare = false;
+    for (; line.back() == '}'; line.erase(line.find_last_not_of(' ') + 1)) {
+      const std::size_t at = line.rfind('{');
+      const std::string mark = line.substr(at);
+      if (mark == "{two ranks}")
+        row.on_two_ranks = true;
+      else if (mark == "{in the run}")
+        row.in_the_run = true;
+      else if (mark == "{engine's words}")
+        row.in_engine_words = true;
+      else if (mark == "{bare}")
+        bare = true;
+      else
+        fail("mark is '" + mark + "'; allowed: {two ranks}, {in the run}, {engine's words} or {bare}");
+      line.erase(at);
+    }
+    const std::size_t bar = line.find(" | ");
+    row.says = parts_of(whole(line.substr(bar + 3)));
+    if (begins_with(row.says[0], "ERROR: "))
+      row.says[0].erase(0, 7);
+    else if (!command_.empty())
+      row.says.insert(row.says.begin(), command_);
+    const std::string words = whole(replaced(line.substr(0, bar), "\\n", "\n"));
+    if (!deck_.empty()) {
+      row.deck = deck_;
+      for (std::string rest = words + ", "; !rest.empty(); rest.erase(0, rest.find(", ") + 2)) {
+        const std::string given = rest.substr(0, rest.find(", "));
+        const std::size_t blank = given.find(' ');
+        row.variables.emplace_back(given.substr(0, blank),
+                                   blank == std::string::npos ? "" : given.substr(blank + 1));
+      }
+    } else if (lammps_ || !begins_with(words, "pair_style")) {
+      row.lines = words;
+    } else {
+      split(words, bare, row);
+    }
+    rows_.push_back(row);
+  }
+
+  /// Lines of the host deck that begin with a pair style.
+  static void split(const std::string &words, bool bare, Refusal &row) {
+    static const std::regex of_pair(
+        "(pair_style|pair_coeff|property|material) .*|fix \\w+ all property/global .*");
+    std::vector<std::string> pair, lines;
+    for (const std::string &line : lines_of(words))
+      (lines.empty() && std::regex_match(line, of_pair) ? pair : lines).push_back(line);
+    const bool coefficients = std::any_of(pair.begin(), pair.end(),
+                                          [](const auto &line) { return begins_with(line, "pair_coeff"); });
+    std::string given;
+    for (const std::string &line : pair) {
+      const std::vector<std::string> word = words_of(line);
+      if (word[0] == "property")
+        given += property(word.at(1), word.at(2));
+      else if (word[0] == "material")
+        given +=
+            fmt::format("fix {0} all property/global {0} peratomtype {1} {1} {1}\n", word.at(1), word.at(2));
+      else
+        given += line + "\n";
+      if (&line == &pair.front() && !coefficients) given += "pair_coeff * *\n";
+    }
+    row.pair = given + (bare ? "" : host_properties(given));
+    for (const std::string &line : lines)
+      row.lines += line + "\n";
+  }
+
+  std::string whole(const std::string &text) const {
+    static const std::string inputs = (fs::path(DRUMLIN_SOURCE_DIR) / "inputs").string();
+    const std::string with_beginning =
+        beginning_.empty() ? text : replaced(text, "@", replaced(beginning_, "\\n", "\n"));
+    return replaced(replaced(with_beginning, "INPUTS", inputs), "LONG", std::string(5000, 'x'));
+  }
+
+  fs::path file_;
+  bool lammps_;
+  std::string command_, beginning_, deck_;
+  int line_ = 0;
+  std::vector<Refusal> rows_;
+};
+
+} // namespace
+
+std::vector<std::string> parts_of(const std::string &says) {
+  static const std::string between = " ... ";
+  const std::size_t end = says.find(between);
+  if (end == std::string::npos) return {says};
+  std::vector<std::string> parts = parts_of(says.substr(end + between.size()));
+  parts.insert(parts.begin(), says.substr(0, end));
+  return parts;
+}
+
+std::vector<std::string> refusal_tables() {
+  std::vector<std::string> tables;
+  for (const char *of : {"engine", "decks"})
+    for (const auto &entry : fs::directory_iterator(folder / of))
+      tables.push_back(of + ("/" + entry.path().filename().string()));
+  std::sort(tables.begin(), tables.end());
+  return tables;
+}
+
+bool is_of_lammps(const std::string &table) {
+  const std::string end = ".lammps";
+  return table.size() > end.size() && table.compare(table.size() - end.size(), end.size(), end) == 0;
+}
+
+std::vector<Refusal> read_refusals(const std::string &table) { return Reader(table).read(); }
+
+} // namespace drumlin::test

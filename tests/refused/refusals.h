@@ -1,0 +1,51 @@
+// The tables of mistakes in tests/refused: a file for each command or style in `engine`, and one for each
+// deck of inputs in `decks`.
+//
+//     # a comment
+//     command fix guard:                  what the error begins with, until the next such line
+//     @ fix guard all guard               what @ stands for in the rows below
+//     @ every 0 | keyword every is '0' ... a whole number from 1   {two ranks}
+//     deck bed/in.bed                     the rows below are variables of this deck, `NAME VALUE, NAME VALUE`
+//
+// A row has the lines of the host deck, with \n between them, and behind " | " the parts of the one error
+// line in their order, with " ... " between them; "ERROR: " before them: without the command. A line
+// `pair_style` at the beginning, with `property NAME VALUE` for all pairs and `material NAME VALUE` for all
+// types below it, replaces the host's. INPUTS is the folder of the decks, LONG a word of 5000 letters. Marks
+// at the end:
+//     {two ranks}       tried on two ranks, too
+//     {in the run}      shows in the run, after the output files were opened
+//     {engine's words}  the engine's own check comes first; its text does not say what is allowed
+//     {bare}            the host's properties are not added to those of the row
+// A file NAME.lammps is for the host deck of LAMMPS, which has no pair style.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drumlin::test {
+
+/// A mistake, and what the engine must say.
+struct Refusal {
+  std::string place;                                          ///< file and line of the table
+  std::string deck;                                           ///< of inputs; empty: the host deck
+  std::vector<std::pair<std::string, std::string>> variables; ///< of a deck of inputs
+  std::string pair;  ///< pair style and properties of the host deck; empty: its own
+  std::string lines; ///< of the host deck
+  std::vector<std::string> says;
+  bool on_two_ranks = false, in_the_run = false, in_engine_words = false, lammps = false;
+};
+
+/// The tables by their names, such as engine/fix_guard.
+std::vector<std::string> refusal_tables();
+bool is_of_lammps(const std::string &table);
+/// Throws std::runtime_error with file and line for a line that is none of the above.
+std::vector<Refusal> read_refusals(const std::string &table);
+
+/// Every parameter of every law, left out and with values out of its range.
+std::vector<Refusal> law_refusals();
+
+/// The parts of an error line, with " ... " between them.
+std::vector<std::string> parts_of(const std::string &says);
+
+} // namespace drumlin::test

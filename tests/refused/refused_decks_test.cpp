@@ -1,0 +1,128 @@
+// Variables of the decks of inputs: which names a deck has, and the rule of each, without the engine where it
+// is not needed. That a rule refuses what it should is in engine/drumlin_check; that each deck applies its
+// own, in decks/.
+#include "engine/deck_variables.h"
+#include "tests/support/checks.h"
+#include "tests/support/host_deck.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path inputs = fs::path(DRUMLIN_SOURCE_DIR) / "inputs";
+
+/// The decks of inputs, such as chain/in.chain, in the order of their names.
+std::vector<std::string> decks() {
+  std::vector<std::string> all;
+  for (const char *room : {"benchmarks", "chain", "bed", "soil", "study"})
+    for (const auto &entry : fs::directory_iterator(inputs / room))
+      if (entry.path().filename().string().rfind("in.", 0) == 0)
+        all.push_back(room + ("/" + entry.path().filename().string()));
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// `rules` has a line for each variable of each deck. DRUMLIN_REWRITE=1 writes it anew, and git shows the
+// change.
+TEST(RefusedDecks, VariablesHaveTheirRules) {
+  std::string text = "# Each variable of each deck of inputs, and the rule of its value.\n";
+  for (const std::string &deck : decks())
+    if (deck.find(".lammps") == std::string::npos)
+      for (const post::DeckVariable &variable : post::deck_variables(inputs / deck, {}))
+        text += deck + " " + variable.name + " " + variable.rule + "\n";
+  const fs::path file = fs::path(DRUMLIN_SOURCE_DIR) / "tests/refused/rules";
+  if (std::getenv("DRUMLIN_REWRITE") != nullptr) write_text(file, text);
+  EXPECT_EQ(read_text(file), text);
+}
+
+/// The names that an error of drumlin/variables lists behind "the nearest of".
+std::set<std::string> names_in(const std::string &output) {
+  const std::string mark = "the nearest of ";
+  const std::size_t begin = output.find(mark);
+  if (begin == std::string::npos) return {};
+  std::istringstream list(
+      output.substr(begin + mark.size(), output.find_first_of("(\n", begin) - begin - mark.size()));
+  std::set<std::string> names;
+  for (std::string name; list >> name;)
+    names.insert(name.substr(0, name.find(',')));
+  return names;
+}
+
+// A misspelt name is an error in every deck, LAMMPS's included; `drumlin run DECK --help`, which reads the
+// deck without the engine, lists the same names as the engine.
+TEST(RefusedDecks, KnowTheirVariables) {
+  std::size_t known = 0;
+  for (const std::string &name : decks()) {
+    const fs::path deck = inputs / name;
+    const bool lammps = deck.extension() == ".lammps";
+    if (lammps && !post::has_lammps()) continue;
+    const Scratch scratch;
+    const Outcome outcome = lammps ? post::run_deck(deck, {{"stepz", "1"}}, scratch.path())
+                                   : run_engine(deck, {"-var", "stepz", "1"}, scratch.path(), 1);
+    ++known;
+    EXPECT_TRUE(fails_with(outcome,
+                           "ERROR: drumlin/variables: -var stepz is '1', a variable that this deck does "
+                           "not have; allowed: "))
+        << name;
+    std::set<std::string> in_help;
+    for (const post::DeckVariable &variable : post::deck_variables(deck, {}))
+      in_help.insert(variable.name);
+    EXPECT_EQ(in_help, names_in(outcome.output)) << name;
+  }
+  EXPECT_GE(known, 20u);
+}
+
+// A variable that a deck uses internally cannot be set on the command line either. Decks define such
+// variables behind the first drumlin/variable. Before it one of another style than index would end the run
+// with "Cannot redefine variable as a different style", which does not tell the name of the variable.
+TEST(RefusedDecks, KeepTheirOwnVariables) {
+  const std::vector<std::pair<const char *, std::vector<std::string>>> table = {
+      {"bed/in.bed", {"rolls", "contact_k", "absorbing", "ground_rule", "in_lammps", "engine"}},
+      {"chain/in.chain", {"roller_values", "drumlin_fault"}},
+      {"benchmarks/in.spheres", {"m1", "rest", "step", "E2_over_E", "engine"}},
+      {"soil/in.biaxial", {"test", "dimensions", "engine"}},
+      {"soil/in.density", {"share", "packings", "in_lammps", "of_preparation"}},
+      {"soil/in.oedometer", {"test", "mass", "pitch", "h", "flat", "softer", "loose"}},
+      {"soil/in.repose", {"test", "files", "moved", "along_x", "wall_friction", "rough"}},
+      {"soil/in.shear", {"test", "dimensions"}},
+      {"soil/in.silo", {"floor", "test_drag", "until_free", "along_y", "flat_radius"}},
+      {"soil/in.triaxial", {"test", "balls"}},
+      {"soil/in.wall", {"floor", "rough"}}};
+  for (const auto &[deck, names] : table)
+    for (const std::string &name : names) {
+      const Scratch scratch;
+      EXPECT_TRUE(fails_with(run_engine(inputs / deck, {"-var", name, "mud"}, scratch.path(), 1),
+                             "ERROR: drumlin/variables: -var " + name +
+                                 " is 'mud', a variable that this deck does not have; allowed: "))
+          << deck << ' ' << name;
+    }
+}
+
+// The engine's error->all() would use the text as a format, in which {} means an argument.
+TEST(RefusedDecks, BracesStayAsTheyAreInLammps) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const Scratch scratch;
+  for (const auto &[deck, name] : {std::pair("chain/in.chain.lammps", "k"),
+                                   {"chain/in.chain.lammps", "case"},
+                                   {"bed/in.bed.lammps", "start"}})
+    for (const std::string value : {"{}", "{0}", "{"}) {
+      EXPECT_TRUE(fails_with(post::run_deck(inputs / deck, {{name, value}}, scratch.path()),
+                             "ERROR: drumlin/variable: variable " + std::string(name) + " is '" + value +
+                                 "'; allowed: "));
+    }
+}
+
+} // namespace
+} // namespace drumlin::test
