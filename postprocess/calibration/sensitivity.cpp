@@ -1,6 +1,6 @@
 #include "calibration/sensitivity.h"
 
-#include <Eigen/Dense>
+#include "chain/linear_algebra.h"
 
 #include <fmt/format.h>
 
@@ -47,19 +47,19 @@ Fits fits(const CalibrationTask &task, const std::vector<const Evaluation *> &ne
     terms(index(i), 0) = 1.0;
     terms.row(index(i)).tail(parameters) = offset(near[i]->point, centre).transpose();
   }
-  const Eigen::ColPivHouseholderQR<MatrixXd> factors(terms);
-  if (factors.rank() < terms.cols())
+  const PseudoInverse solve = pseudo_inverse_of(terms);
+  if (solve.rank < terms.cols())
     throw std::runtime_error("too few evaluations near the best one succeeded: its slopes are not known");
   Fits all;
-  all.leverage = (terms.transpose() * terms).inverse()(0, 0);
+  all.leverage = solve.matrix.row(0).squaredNorm();
   for (int seed = 0; seed < task.seeds; ++seed) {
     MatrixXd values(terms.rows(), targets);
     for (std::size_t i = 0; i < near.size(); ++i)
       for (Index j = 0; j < targets; ++j)
         values(index(i), j) =
             std::log(near[i]->seeds[static_cast<std::size_t>(seed)].values[static_cast<std::size_t>(j)]);
-    all.seeds.emplace_back(factors.solve(values));
-    all.residuals.emplace_back(values - terms * all.seeds.back());
+    all.seeds.push_back(product_of(solve.matrix, values));
+    all.residuals.emplace_back(values - product_of(terms, all.seeds.back()));
   }
   return all;
 }
@@ -158,8 +158,8 @@ Sensitivity sensitivity_at(const CalibrationTask &task, const std::vector<Evalua
     wanted(index(i)) = std::log(task.targets[i].value);
   }
   const MatrixXd slopes = weight.asDiagonal() * mean.bottomRows(index(parameters)).transpose();
-  const MatrixXd inverse = slopes.completeOrthogonalDecomposition().pseudoInverse();
-  const MatrixXd covariance = inverse * inverse.transpose();
+  const MatrixXd inverse = pseudo_inverse_of(slopes).matrix;
+  const MatrixXd covariance = product_of(inverse, inverse.transpose());
   found.correlation.assign(parameters, std::vector<double>(parameters, 0.0));
   for (std::size_t i = 0; i < parameters; ++i)
     for (std::size_t j = 0; j < parameters; ++j) {
@@ -174,8 +174,9 @@ Sensitivity sensitivity_at(const CalibrationTask &task, const std::vector<Evalua
     std::vector<double> of_seeds;
     double squares = 0.0;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-      of_seeds.push_back(steps.row(index(j)) * (wanted - seeds[i].row(0).transpose()));
-      squares += (fit.residuals[i] * steps.row(index(j)).transpose()).squaredNorm();
+      const VectorXd step_of = steps.row(index(j));
+      of_seeds.push_back(step_of.dot(wanted - seeds[i].row(0).transpose()));
+      squares += product_of(fit.residuals[i], step_of).squaredNorm();
     }
     const MeanError step = mean_error(of_seeds);
     const double half_width = task.target_beds > 0
