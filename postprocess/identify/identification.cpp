@@ -1,7 +1,6 @@
 #include "identify/identification.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include "chain/linear_algebra.h"
 
 #include <algorithm>
 #include <array>
@@ -138,9 +137,8 @@ Projected Fitter::project(ContactPiece &piece) const {
   VectorXd residual(rows);
   fill(piece, own, residual, result);
   const VectorXd sizes = own.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
-  const Eigen::HouseholderQR<MatrixXd> qr(own * sizes.cwiseInverse().asDiagonal());
-  const MatrixXd q = qr.householderQ() * MatrixXd::Identity(rows, unknowns);
-  const VectorXd values = -qr.solve(residual).cwiseQuotient(sizes);
+  const LeastSquares basis(own * sizes.cwiseInverse().asDiagonal());
+  const VectorXd values = -basis.solution(residual).cwiseQuotient(sizes);
 
   const bool only_force = !has_x() && !has_v();
   piece.offset = -(tied() ? unknowns_[0] : 1.0) * values[0];
@@ -156,9 +154,9 @@ Projected Fitter::project(ContactPiece &piece) const {
     result.slopes(row, 2) = phase_slope(piece.run.first + j);
   }
   result.slopes /= noise_[of_force];
-  result.slopes -= q * (q.transpose() * result.slopes);
-  result.residual = residual - q * (q.transpose() * residual);
-  result.lever = q.rowwise().squaredNorm();
+  result.slopes = basis.left_of(result.slopes);
+  result.residual = basis.left_of(residual);
+  result.lever = basis.levers();
   return result;
 }
 
@@ -208,10 +206,10 @@ bool last_is_alone(const Matrix3d &m) { return m(2, 0) == 0.0 && m(2, 1) == 0.0;
 // hardly any noise the force depends on the phase so much more than the phase's own equation does that a
 // general method takes the latter for zero.
 Vector3d solved(const Matrix3d &m, const Vector3d &right) {
-  if (!last_is_alone(m)) return m.fullPivLu().solve(right);
+  if (!last_is_alone(m)) return solution_of(m, right);
   Vector3d y;
   y[2] = right[2] / m(2, 2);
-  y.head<2>() = m.topLeftCorner<2, 2>().fullPivLu().solve(right.head<2>() - y[2] * m.col(2).head<2>());
+  y.head<2>() = solution_of(m.topLeftCorner<2, 2>(), right.head<2>() - y[2] * m.col(2).head<2>());
   return y;
 }
 
@@ -223,8 +221,8 @@ Matrix3d inverse_of(const Matrix3d &normal) {
     throw std::runtime_error("the record does not determine k and c: the drum hardly moves in contact");
   const Eigen::DiagonalMatrix<double, 3> units(sizes.cwiseInverse());
   const Matrix3d scaled = units * normal * units;
-  const double pivot = last_is_alone(scaled) ? scaled.topLeftCorner<2, 2>().fullPivLu().matrixLU()(1, 1)
-                                             : scaled.fullPivLu().matrixLU()(2, 2);
+  const Index together = last_is_alone(scaled) ? 2 : 3;
+  const double pivot = last_pivot_of(scaled.topLeftCorner(together, together));
   constexpr double least_pivot = 1e-13;
   if (std::fabs(pivot) < least_pivot)
     throw std::runtime_error("the record does not determine k and c: the drum's position and velocity in "

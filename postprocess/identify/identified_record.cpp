@@ -1,12 +1,12 @@
 #include "identify/identified_record.h"
 
+#include "chain/linear_algebra.h"
 #include "identify/motion_fit.h"
 #include "meter/values.h"
 #include "record/excitation.h"
 #include "support/csv.h"
 #include "support/range.h"
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::vector<double> quadrature_of(const std::vector<double> &excitation, const R
     waves(i, 1) = std::cos(angle);
     force[i] = excitation[static_cast<std::size_t>(i)];
   }
-  const Eigen::Vector2d parts = waves.colPivHouseholderQr().solve(force);
+  const Eigen::Vector2d parts = LeastSquares(waves).solution(force);
   std::vector<double> quadrature(excitation.size());
   for (Eigen::Index i = 0; i < n; ++i)
     quadrature[static_cast<std::size_t>(i)] = parts[0] * waves(i, 1) - parts[1] * waves(i, 0);

@@ -1,13 +1,12 @@
 #include "identify/motion_fit.h"
 
+#include "chain/linear_algebra.h"
 #include "record/both_ends.h"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -21,8 +20,41 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double pi = 3.14159265358979323846;
+// A length and its rate, or a stiffness and a damping.
+using Pair = std::array<double, 2>;
 // Contacts that act: bit j set, contact j does.
 using Set = unsigned;
+
+// Numbers of a matrix, column behind column. States and their derivatives are followed in plain loops:
+// expressions of matrices would take most of the time of compiling this file, and of the tests under the
+// sanitizers.
+template <Index rows, Index cols = 1>
+struct Numbers {
+  std::array<double, static_cast<std::size_t>(rows *cols)> all{};
+
+  double &operator()(Index row, Index col = 0) { return all[static_cast<std::size_t>(col * rows + row)]; }
+  double operator()(Index row, Index col = 0) const {
+    return all[static_cast<std::size_t>(col * rows + row)];
+  }
+  double &operator[](Index row) { return (*this)(row); }
+  double operator[](Index row) const { return (*this)(row); }
+  double *column(Index col) { return all.data() + col * rows; }
+  const double *column(Index col) const { return all.data() + col * rows; }
+  double largest() const {
+    double most = 0.0;
+    for (const double value : all)
+      most = std::max(most, std::fabs(value));
+    return most;
+  }
+};
+
+// Adds A x.
+template <Index rows, Index inner>
+void add_product(const Numbers<rows, inner> &A, const double *x, double *sum) {
+  for (Index j = 0; j < inner; ++j)
+    for (Index i = 0; i < rows; ++i)
+      sum[i] += A(i, j) * x[j];
+}
 
 // Sums over the springs or dashpots of the bond of drum and frame, over that of themselves: of their places,
 // and of the squares of these.
@@ -34,10 +66,10 @@ struct BondPlaces {
 template <int starts>
 struct StretchOf {
   std::size_t first, end;
-  Eigen::Matrix<double, starts, 1> start;
+  Numbers<starts> start;
   // Extension of the bond, without its static part, and the rate of that, as first found [m, m/s]; and of its
   // turn [rad, rad/s].
-  Eigen::Vector2d bond{0.0, 0.0}, turn{0.0, 0.0};
+  Pair bond{}, turn{};
 };
 
 // The mechanical model with the present values: of a drum on one contact, or on one below each half, where
@@ -52,9 +84,8 @@ struct ModelOf {
   // exciter's angle, and 1.
   static constexpr Index starts = tilts ? 8 : 4;
   static constexpr Index of_sine = starts, of_cosine = starts + 1, of_one = starts + 2, size = starts + 3;
-  using State = Eigen::Matrix<double, size, 1>;
-  using Square = Eigen::Matrix<double, size, size>;
-  using Start = Eigen::Matrix<double, starts, 1>;
+  using State = Numbers<size>;
+  using Start = Numbers<starts>;
   using Stretch = StretchOf<starts>;
 
   // Columns of derivatives: the first by the state at the start of a stretch, the others by what all
@@ -63,10 +94,9 @@ struct ModelOf {
   static constexpr Index of_c(Index contact) { return of_k(contact) + 1; }
   static constexpr Index of_k23 = starts + 2 * contacts, of_c23 = of_k23 + 1, of_phase = of_k23 + 2,
                          of_omega = of_k23 + 3, columns = of_k23 + 4;
-  using Slopes = Eigen::Matrix<double, size, columns>;
+  using Slopes = Numbers<size, columns>;
   // Behind the derivatives that states have, an observation has those by offset and drift of each sensor.
   static constexpr Index shared = columns - starts, unknowns = shared + 2 * static_cast<Index>(sensors);
-  using Shared = Eigen::Matrix<double, unknowns, 1>;
 
   double m2, m3, g, me_re;
   std::array<double, contacts> k, c;
@@ -81,36 +111,25 @@ struct ModelOf {
 
   double Fw() const { return me_re * omega * omega; } // amplitude of the exciter's force [N]
 
-  // Rows of the drum's position and velocity at a contact.
-  template <class Matrix>
-  auto position(const Matrix &y, std::size_t contact) const {
-    if constexpr (tilts)
-      return (y.row(0) + place[contact] * y.row(4)).eval();
-    else
-      return y.row(0).eval();
+  // The drum's position and velocity at a contact, of a state or a derivative of it.
+  double position(const double *y, std::size_t contact) const {
+    if constexpr (tilts) return y[0] + place[contact] * y[4];
+    return y[0];
   }
-  template <class Matrix>
-  auto velocity(const Matrix &y, std::size_t contact) const {
-    if constexpr (tilts)
-      return (y.row(1) + place[contact] * y.row(5)).eval();
-    else
-      return y.row(1).eval();
+  double velocity(const double *y, std::size_t contact) const {
+    if constexpr (tilts) return y[1] + place[contact] * y[5];
+    return y[1];
   }
   // The acceleration that a sensor feels, from the rate of a state.
-  template <class Matrix>
-  auto felt(const Matrix &rate, std::size_t at) const {
-    if constexpr (tilts) {
-      if (at + 1 < sensors) return (rate.row(1) + sensor[at] * rate.row(5)).eval();
-      return rate.row(3).eval();
-    } else {
-      return rate.row(1 + 2 * static_cast<Index>(at)).eval();
-    }
+  double felt(const double *rate, std::size_t at) const {
+    if constexpr (tilts) return at + 1 < sensors ? rate[1] + sensor[at] * rate[5] : rate[3];
+    return rate[1 + 2 * at];
   }
 
   // What has to be positive in contact, for the position of the drum alone and for the force [m].
-  double overlap(const State &y, std::size_t contact) const { return -position(y, contact)(0); }
+  double overlap(const State &y, std::size_t contact) const { return -position(y.column(0), contact); }
   double pressed(const State &y, std::size_t contact) const {
-    return -position(y, contact)(0) - c[contact] / k[contact] * velocity(y, contact)(0);
+    return overlap(y, contact) - c[contact] / k[contact] * velocity(y.column(0), contact);
   }
   double indicator(const State &y, std::size_t contact) const {
     return pulls ? overlap(y, contact) : std::min(overlap(y, contact), pressed(y, contact));
@@ -122,15 +141,13 @@ struct ModelOf {
     return set;
   }
 
-  template <class Matrix>
-  Matrix rate(const Matrix &y, Set acting) const {
-    Matrix d;
-    for (Index column = 0; column < y.cols(); ++column)
-      put_rate(y.col(column).data(), acting, d.col(column).data());
+  template <Index cols>
+  Numbers<size, cols> rate(const Numbers<size, cols> &y, Set acting) const {
+    Numbers<size, cols> d;
+    for (Index column = 0; column < cols; ++column)
+      put_rate(y.column(column), acting, d.column(column));
     return d;
   }
-  // Of one column. In plain numbers: expressions of matrices would take most of the time of compiling this
-  // file, and of the tests under the sanitizers.
   void put_rate(const double *y, Set acting, double *d) const {
     double bond = k23 * (y[0] - y[2]) + c23 * (y[1] - y[3]);
     if constexpr (tilts) {
@@ -147,12 +164,7 @@ struct ModelOf {
     d[1] = (-bond - Fw() * y[of_sine]) / m2 - g * y[of_one];
     for (std::size_t j = 0; j < contacts; ++j) {
       if (((acting >> j) & 1U) == 0) continue;
-      double position = y[0], velocity = y[1];
-      if constexpr (tilts) {
-        position += place[j] * y[4];
-        velocity += place[j] * y[5];
-      }
-      const double force = k[j] * position + c[j] * velocity;
+      const double force = k[j] * position(y, j) + c[j] * velocity(y, j);
       d[1] -= force / m2;
       if constexpr (tilts) d[5] -= place[j] / I2 * force;
     }
@@ -167,7 +179,7 @@ struct ModelOf {
     for (std::size_t j = 0; j < contacts; ++j) {
       if (((acting >> j) & 1U) == 0) continue;
       const auto of = static_cast<Index>(j);
-      const double by_k = factor * position(y, j)(0), by_c = factor * velocity(y, j)(0);
+      const double by_k = factor * position(y.column(0), j), by_c = factor * velocity(y.column(0), j);
       s(1, of_k(of)) -= by_k / m2;
       s(1, of_c(of)) -= by_c / m2;
       if constexpr (tilts) {
@@ -215,8 +227,7 @@ struct Filter {
   Index input(Index sensor) const { return sensor * order() + (damping.empty() ? 0 : 1); }
 
   // The rate of the states, without what comes in.
-  template <class Matrix>
-  MatrixXd rate(const Matrix &z) const {
+  MatrixXd rate(const MatrixXd &z) const {
     MatrixXd d(z.rows(), z.cols());
     for (Index sensor = 0; sensor < sensors; ++sensor) {
       Index at = sensor * order();
@@ -233,10 +244,12 @@ struct Filter {
     return d;
   }
   // Adds the accelerations that come in, from the rates of states.
-  template <class Model, class Matrix>
-  void add_input(const Model &model, const Matrix &rates, MatrixXd &d) const {
+  template <class Model, Index cols>
+  void add_input(const Model &model, const Numbers<Model::size, cols> &rates, MatrixXd &d) const {
     for (Index sensor = 0; sensor < sensors; ++sensor)
-      d.row(input(sensor)) += corner * model.felt(rates, static_cast<std::size_t>(sensor));
+      for (Index column = 0; column < cols; ++column)
+        d(input(sensor), column) +=
+            corner * model.felt(rates.column(column), static_cast<std::size_t>(sensor));
   }
 };
 
@@ -251,41 +264,46 @@ struct Filtered {
 template <class Model>
 void advance(const Model &model, Set acting, double h, typename Model::State &y, typename Model::Slopes *s,
              Filtered *z = nullptr) {
-  constexpr int most_terms = 40;
+  constexpr int least_terms = 8, most_terms = 40;
+  constexpr double small = 1e-17, small_of_filter = 1e-13;
   MatrixXd z_term, z_slopes;
   if (z != nullptr) {
     z_term = z->value;
     z_slopes = z->slopes;
   }
-  constexpr double small = 1e-17;
   typename Model::State term = y;
   typename Model::Slopes slopes;
   if (s != nullptr) slopes = *s;
   for (int n = 1; n <= most_terms; ++n) {
     const double factor = h / n;
+    bool done = n >= least_terms;
     if (s != nullptr) {
-      typename Model::Slopes next = factor * model.rate(slopes, acting);
-      model.add_sources(term, acting, factor, next);
-      slopes = next;
-      *s += slopes;
+      slopes = model.rate(slopes, acting);
+      for (double &value : slopes.all)
+        value *= factor;
+      model.add_sources(term, acting, factor, slopes);
+      for (std::size_t i = 0; i < slopes.all.size(); ++i) {
+        s->all[i] += slopes.all[i];
+        done = done && std::fabs(slopes.all[i]) <= small * (1.0 + std::fabs(s->all[i]));
+      }
       if (z != nullptr) {
-        z_slopes = (factor * z->filter->rate(z_slopes)).eval();
+        z_slopes = factor * z->filter->rate(z_slopes);
         z->filter->add_input(model, slopes, z_slopes);
         z->slopes += z_slopes;
       }
     }
-    term = (factor * model.rate(term, acting)).eval();
-    y += term;
+    term = model.rate(term, acting);
+    for (Index i = 0; i < Model::size; ++i) {
+      term[i] *= factor;
+      y[i] += term[i];
+    }
     if (z != nullptr) {
-      z_term = (factor * z->filter->rate(z_term)).eval();
+      z_term = factor * z->filter->rate(z_term);
       z->filter->add_input(model, term, z_term);
       z->value += z_term;
-      if (n < most_terms && (z_term.cwiseAbs().maxCoeff() > 1e-13 * z->value.cwiseAbs().maxCoeff())) continue;
+      done = done && z_term.cwiseAbs().maxCoeff() <= small_of_filter * z->value.cwiseAbs().maxCoeff();
     }
-    constexpr int least_terms = 8;
-    if (n >= least_terms && term.cwiseAbs().maxCoeff() < small &&
-        (s == nullptr || (slopes.cwiseAbs().array() <= small * (1.0 + s->cwiseAbs().array())).all()))
-      break;
+    if (done && term.largest() < small) break;
   }
 }
 
@@ -301,51 +319,65 @@ public:
       const Index states = filter.states();
       of_filter_.resize(states, states);
       for (Index i = 0; i < states; ++i) {
-        State none = State::Zero();
+        State none;
         Filtered z{&filter, MatrixXd::Zero(states, 1), {}};
         z.value(i, 0) = 1.0;
         advance(model, acting, h, none, nullptr, &z);
-        of_filter_.col(i) = z.value;
+        of_filter_.col(i) = z.value.col(0);
       }
       into_filter_.resize(states, size);
       into_filter_by_.assign(of_parameters, MatrixXd(states, size));
       for (Index i = 0; i < size; ++i) {
-        State column = State::Unit(i);
-        Slopes slopes = Slopes::Zero();
+        State column;
+        column[i] = 1.0;
+        Slopes slopes;
         Filtered z{&filter, MatrixXd::Zero(states, 1), MatrixXd::Zero(states, columns)};
         advance(model, acting, h, column, &slopes, &z);
-        into_filter_.col(i) = z.value;
+        into_filter_.col(i) = z.value.col(0);
         for (Index p = 0; p < of_parameters; ++p)
           into_filter_by_[static_cast<std::size_t>(p)].col(i) = z.slopes.col(parameter(p));
       }
     }
     for (Index i = 0; i < size; ++i) {
-      State column = State::Unit(i);
-      Slopes slopes = Slopes::Zero();
+      State column;
+      column[i] = 1.0;
+      Slopes slopes;
       advance(model, acting, h, column, &slopes);
-      all_.col(i) = column;
+      std::copy_n(column.column(0), size, all_.column(i));
       for (Index p = 0; p < of_parameters; ++p)
-        by_[static_cast<std::size_t>(p)].col(i) = slopes.col(parameter(p));
+        std::copy_n(slopes.column(parameter(p)), size, by_[static_cast<std::size_t>(p)].column(i));
     }
   }
-  State moved(const State &y) const { return all_ * y; }
+  State moved(const State &y) const {
+    State next;
+    add_product(all_, y.column(0), next.column(0));
+    return next;
+  }
   // To be called before y and s move.
   void move_filter(const State &y, const Slopes *s, Filtered &z) const {
-    z.value = (of_filter_ * z.value + into_filter_ * y).eval();
+    using Eigen::Map;
+    const Map<const VectorXd> state(y.column(0), size);
+    z.value = of_filter_ * z.value;
+    z.value.col(0) += into_filter_ * state;
     if (s == nullptr) return;
-    z.slopes = (of_filter_ * z.slopes + into_filter_ * *s).eval();
+    z.slopes = of_filter_ * z.slopes;
+    z.slopes += into_filter_ * Map<const MatrixXd>(s->column(0), size, columns);
     for (Index p = 0; p < of_parameters; ++p)
-      z.slopes.col(parameter(p)) += into_filter_by_[static_cast<std::size_t>(p)] * y;
+      z.slopes.col(parameter(p)) += into_filter_by_[static_cast<std::size_t>(p)] * state;
   }
   void move(const State &before, Slopes &s) const {
-    // The exciter's angle depends on phase and frequency alone.
-    auto motion = s.template topRows<of_sine>();
-    auto angle = s.template block<2, 2>(of_sine, of_phase);
-    motion = (all_.template topLeftCorner<of_sine, of_sine>() * motion).eval();
-    s.template block<of_sine, 2>(0, of_phase) += all_.template block<of_sine, 2>(0, of_sine) * angle;
-    angle = (all_.template block<2, 2>(of_sine, of_sine) * angle).eval();
+    Slopes next;
+    for (Index column = 0; column < columns; ++column) {
+      const bool of_angle = column == of_phase || column == Model::of_omega; // the exciter's alone
+      const double *const from = s.column(column);
+      double *const to = next.column(column);
+      for (Index j = 0; j < (of_angle ? size - 1 : of_sine); ++j)
+        for (Index i = 0; i < size; ++i)
+          to[i] += all_(i, j) * from[j];
+    }
+    s = next;
     for (Index p = 0; p < of_parameters; ++p)
-      s.col(parameter(p)) += by_[static_cast<std::size_t>(p)] * before;
+      add_product(by_[static_cast<std::size_t>(p)], before.column(0), s.column(parameter(p)));
   }
 
 private:
@@ -356,8 +388,8 @@ private:
   static Index parameter(Index p) {
     return p + 1 < of_parameters ? Model::starts + p : Index(Model::of_omega);
   }
-  typename Model::Square all_;
-  std::array<typename Model::Square, of_parameters> by_;
+  Numbers<size, size> all_;
+  std::array<Numbers<size, size>, of_parameters> by_;
   MatrixXd of_filter_, into_filter_;
   std::vector<MatrixXd> into_filter_by_;
 };
@@ -400,19 +432,28 @@ void pass_event(const Model &model, std::size_t contact, Set acting, const typen
   const typename Model::State before = model.rate(y, acting), after = model.rate(y, acting ^ (1U << contact));
   const bool of_force = !model.pulls && model.pressed(y, contact) < model.overlap(y, contact);
   const double of_v = of_force ? model.c[contact] / model.k[contact] : 0.0;
-  const double speed = model.position(before, contact)(0) + of_v * model.velocity(before, contact)(0);
+  const double speed =
+      model.position(before.column(0), contact) + of_v * model.velocity(before.column(0), contact);
   if (speed == 0.0) return;
-  auto change = (model.position(s, contact) + of_v * model.velocity(s, contact)).eval();
-  if (of_force) {
-    const double k = model.k[contact], v = model.velocity(y, contact)(0);
-    change[Model::of_k(static_cast<Index>(contact))] -= model.c[contact] / (k * k) * v;
-    change[Model::of_c(static_cast<Index>(contact))] += v / k;
-  }
-  s -= (before - after) * (change / speed);
+  typename Model::State jump;
+  for (Index i = 0; i < Model::size; ++i)
+    jump[i] = before[i] - after[i];
+  MatrixXd filter_jump;
   if (z != nullptr) {
-    MatrixXd jump = MatrixXd::Zero(z->value.rows(), 1);
-    z->filter->add_input(model, (before - after).eval(), jump);
-    z->slopes -= jump * (change / speed);
+    filter_jump = MatrixXd::Zero(z->value.rows(), 1);
+    z->filter->add_input(model, jump, filter_jump);
+  }
+  for (Index column = 0; column < Model::columns; ++column) {
+    double *const of = s.column(column);
+    double change = model.position(of, contact) + of_v * model.velocity(of, contact);
+    if (of_force) {
+      const double k = model.k[contact], v = model.velocity(y.column(0), contact);
+      if (column == Model::of_k(static_cast<Index>(contact))) change -= model.c[contact] / (k * k) * v;
+      if (column == Model::of_c(static_cast<Index>(contact))) change += v / k;
+    }
+    for (Index i = 0; i < Model::size; ++i)
+      of[i] -= jump[i] * change / speed;
+    if (z != nullptr) z->slopes.col(column) -= change / speed * filter_jump.col(0);
   }
 }
 
@@ -438,8 +479,8 @@ struct BondKnowledge {
   }
   // The same of the turn and its rate, which have no static part.
   template <class Stretch>
-  static double turn_off(const Stretch &stretch, Index of_rate) {
-    return stretch.start[4 + of_rate] - stretch.start[6 + of_rate] - stretch.turn[of_rate];
+  static double turn_off(const Stretch &stretch, std::size_t of_rate) {
+    return stretch.start.all[4 + of_rate] - stretch.start.all[6 + of_rate] - stretch.turn[of_rate];
   }
   template <class Model>
   double off(const Model &model, const typename Model::Stretch &stretch) const {
@@ -477,13 +518,21 @@ struct Signals {
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
 };
 
+// A sample of a sensor as one motion has it: what that leaves, and its derivatives by what states depend on.
+struct Observation {
+  std::size_t sample, sensor;
+  double residual;
+  const double *slopes; // none if they were not asked for
+  double u;             // time from the middle of the record over half its length
+};
+using Observe = std::function<void(const Observation &)>;
+
 template <class Model>
 class Fit {
 public:
   using State = typename Model::State;
   using Slopes = typename Model::Slopes;
   using Stretch = typename Model::Stretch;
-  using Shared = typename Model::Shared;
   static constexpr Index starts = Model::starts, unknowns = Model::unknowns, columns = Model::columns,
                          shared = Model::shared;
   static constexpr std::size_t sensors = Model::sensors;
@@ -516,23 +565,20 @@ public:
   double tension() const;
 
 private:
+  // Derivatives of an observation by the start of its stretch and by what all stretches share.
+  using Line = std::array<double, static_cast<std::size_t>(starts + unknowns)>;
   // Normal equations of a stretch: of its start, and what it adds to those of the shared unknowns.
   struct Equations {
-    Eigen::Matrix<double, starts, starts> own;
-    Eigen::Matrix<double, starts, unknowns> mixed;
-    typename Model::Start own_right;
+    MatrixXd own, mixed;
+    VectorXd own_right;
   };
-  // Derivatives of an observation by the shared unknowns.
-  template <class Row>
-  static Shared observed(const Row &row, std::size_t sensor, double u) {
-    Shared all = Shared::Zero();
-    all.template head<shared>() = row.template tail<shared>().transpose();
-    const auto at = static_cast<Index>(shared + 2 * sensor);
-    all[at] = 1.0;
-    all[at + 1] = u;
-    return all;
+  static Line line_of(const Observation &seen) {
+    Line line{};
+    std::copy_n(seen.slopes, columns, line.begin());
+    line[static_cast<std::size_t>(columns) + 2 * seen.sensor] = 1.0;
+    line[static_cast<std::size_t>(columns) + 2 * seen.sensor + 1] = seen.u;
+    return line;
   }
-  // Calls `use` for each sample with its residuals and derivatives; false if the motion cannot be followed.
   // A model with its steps between samples.
   struct Motion {
     Motion(const Signals &signals, const Model &of) : model(of) {
@@ -549,12 +595,10 @@ private:
     double h;
     std::array<Step<Model>, 1U << Model::contacts> step;
   };
-  struct Nothing {
-    void operator()(const State & /*state*/) const {}
-  };
-  template <class Use, class See = Nothing>
-  bool follow(const Motion &motion, const Stretch &stretch, bool slopes_too, const Use &use,
-              const See &see = {}) const;
+  // Calls `observe` for each sample of each sensor, and `see` for the state at each; false if the motion
+  // cannot be followed.
+  bool follow(const Motion &motion, const Stretch &stretch, bool slopes_too, const Observe &observe,
+              const std::function<void(const State &)> &see = {}) const;
   static std::array<double, sensors> ones() {
     std::array<double, sensors> values;
     values.fill(1.0);
@@ -572,26 +616,27 @@ private:
   double phase_weight_, phase_said_;
   BondKnowledge bond_;
   std::vector<Equations> of_stretch_;
-  Eigen::Matrix<double, unknowns, unknowns> normal_;
-  Shared right_;
+  MatrixXd normal_;
+  VectorXd right_;
   std::array<double, sensors> level_ = ones(), squares_{};
   double cost_ = 0.0;
   std::size_t samples_ = 0;
 };
 
 template <class Model>
-template <class Use, class See>
-bool Fit<Model>::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, const Use &use,
-                        const See &see) const {
+bool Fit<Model>::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, const Observe &observe,
+                        const std::function<void(const State &)> &see) const {
   const Model &model = motion.model;
   const auto &step = motion.step;
   constexpr Index of_sine = Model::of_sine, of_cosine = Model::of_cosine, of_phase = Model::of_phase,
                   of_omega = Model::of_omega;
   const double h = motion.h;
   State y;
-  y << stretch.start, 0.0, 0.0, 1.0;
-  Slopes s = Slopes::Zero();
-  s.template topLeftCorner<starts, starts>().setIdentity();
+  std::copy_n(stretch.start.column(0), starts, y.column(0));
+  y[Model::of_one] = 1.0;
+  Slopes s;
+  for (Index i = 0; i < starts; ++i)
+    s(i, i) = 1.0;
   const auto turn_to = [&](std::size_t i, double angle) {
     const double time = signals_->time(i), share = signals_->wander->empty() ? 1.0 : signals_->force_share[i];
     y[of_sine] = share * std::sin(angle);
@@ -623,14 +668,15 @@ bool Fit<Model>::follow(const Motion &motion, const Stretch &stretch, bool slope
     for (Index sensor = 0; sensor < filter.sensors; ++sensor) {
       const Index first = sensor * filter.order();
       for (Index at = first; at < first + filter.order(); at += 2)
-        z.value(at, 0) = model.felt(rate, static_cast<std::size_t>(sensor))(0);
+        z.value(at, 0) = model.felt(rate.column(0), static_cast<std::size_t>(sensor));
     }
   }
+  std::array<double, static_cast<std::size_t>(columns)> row{};
   const std::size_t end = std::min(stretch.end + filter.warm, signals_->size());
   for (std::size_t i = stretch.first; i < end; ++i) {
     if (!signals_->wander->empty()) turn_to(i, angle_at(i));
     const State here = y;
-    see(here);
+    if (see) see(here);
     const Slopes slopes = s;
     const Set touches = acting;
     Set turned = 0; // between this sample and the next one
@@ -639,10 +685,11 @@ bool Fit<Model>::follow(const Motion &motion, const Stretch &stretch, bool slope
         if (signals_->a[sensor] == nullptr) continue;
         const Index out = filter.output(static_cast<Index>(sensor));
         const double u = u_of(i);
-        const Eigen::Matrix<double, 1, columns> row = z.slopes.row(out);
-        use(i, sensor,
-            z.value(out, 0) + model.offset[sensor] + model.drift[sensor] * u - (*signals_->a[sensor])[i], row,
-            u);
+        for (Index column = 0; column < columns; ++column)
+          row[static_cast<std::size_t>(column)] = z.slopes(out, column);
+        observe({i, sensor,
+                 z.value(out, 0) + model.offset[sensor] + model.drift[sensor] * u - (*signals_->a[sensor])[i],
+                 row.data(), u});
       }
     // To the next sample with the frequency of the fit, right in the middle between them.
     if (!signals_->wander->empty() && i + 1 < signals_->size())
@@ -677,7 +724,7 @@ bool Fit<Model>::follow(const Motion &motion, const Stretch &stretch, bool slope
       }
       y = next;
     }
-    if (!y.allFinite()) return false;
+    if (!std::isfinite(y.largest())) return false;
     if (filter) continue;
     // Next to an event a sample is taken for that side of it which is nearer: else the acceleration's jump
     // would hold the event between two samples while the parameters still change.
@@ -687,7 +734,7 @@ bool Fit<Model>::follow(const Motion &motion, const Stretch &stretch, bool slope
       const State rate = model.rate(here, set);
       double squares = 0.0;
       for (std::size_t sensor = 0; sensor + 1 < sensors; ++sensor)
-        squares += std::pow(model.felt(rate, sensor)(0) + model.offset[sensor] +
+        squares += std::pow(model.felt(rate.column(0), sensor) + model.offset[sensor] +
                                 model.drift[sensor] * u_of(i) - (*signals_->a[sensor])[i],
                             2);
       return squares;
@@ -712,10 +759,12 @@ bool Fit<Model>::follow(const Motion &motion, const Stretch &stretch, bool slope
     for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
       if (signals_->a[sensor] == nullptr) continue;
       const double u = u_of(i);
-      use(i, sensor,
-          model.felt(rate, sensor)(0) + model.offset[sensor] + model.drift[sensor] * u -
-              (*signals_->a[sensor])[i],
-          model.felt(change, sensor), u);
+      for (Index column = 0; slopes_too && column < columns; ++column)
+        row[static_cast<std::size_t>(column)] = model.felt(change.column(column), sensor);
+      observe({i, sensor,
+               model.felt(rate.column(0), sensor) + model.offset[sensor] + model.drift[sensor] * u -
+                   (*signals_->a[sensor])[i],
+               row.data(), u});
     }
   }
   return true;
@@ -724,55 +773,53 @@ bool Fit<Model>::follow(const Motion &motion, const Stretch &stretch, bool slope
 template <class Model>
 bool Fit<Model>::equations() {
   of_stretch_.resize(stretches_.size());
-  normal_.setZero();
-  right_.setZero();
+  normal_ = MatrixXd::Zero(unknowns, unknowns);
+  right_ = VectorXd::Zero(unknowns);
   squares_.fill(0.0);
   samples_ = 0;
   const Motion motion(*signals_, model_);
   constexpr Index all_unknowns = starts + unknowns;
   double prior = bond_.off(model_);
   for (std::size_t n = 0; n < stretches_.size(); ++n) {
-    Eigen::Matrix<double, all_unknowns, all_unknowns> square;
-    Eigen::Matrix<double, all_unknowns, 1> right, line;
-    square.setZero();
-    right.setZero();
-    const bool followed =
-        follow(motion, stretches_[n], true,
-               [&](std::size_t, std::size_t sensor, double residual, const auto &row, double u) {
-                 if (sensor == 0) ++samples_;
-                 const double weight = 1.0 / (level_[sensor] * level_[sensor]);
-                 line << row.template head<starts>().transpose(), observed(row, sensor, u);
-                 square.noalias() += (weight * line) * line.transpose();
-                 right += weight * residual * line;
-                 squares_[sensor] += residual * residual;
-               });
+    Numbers<all_unknowns, all_unknowns> square;
+    Numbers<all_unknowns> right;
+    const auto add = [&](const Line &line, double weight, double residual) {
+      for (Index j = 0; j < all_unknowns; ++j) {
+        const double weighted = weight * line[static_cast<std::size_t>(j)];
+        right[j] += weighted * residual;
+        for (Index i = 0; i < all_unknowns; ++i)
+          square(i, j) += weighted * line[static_cast<std::size_t>(i)];
+      }
+    };
+    const bool followed = follow(motion, stretches_[n], true, [&](const Observation &seen) {
+      if (seen.sensor == 0) ++samples_;
+      add(line_of(seen), 1.0 / (level_[seen.sensor] * level_[seen.sensor]), seen.residual);
+      squares_[seen.sensor] += seen.residual * seen.residual;
+    });
     if (!followed) return false;
-    if constexpr (Model::tilts)
-      for (const Index of_rate : {0, 1}) {
-        const double weight = of_rate == 1 ? bond_.of_turning : bond_.of_turn;
-        line.setZero();
+    for (const std::size_t of_rate : {0, 1}) {
+      if constexpr (Model::tilts) {
+        Line line{};
         line[4 + of_rate] = 1.0;
         line[6 + of_rate] = -1.0;
-        square += (weight * line) * line.transpose();
-        right += weight * BondKnowledge::turn_off(stretches_[n], of_rate) * line;
+        add(line, of_rate == 1 ? bond_.of_turning : bond_.of_turn,
+            BondKnowledge::turn_off(stretches_[n], of_rate));
       }
-    for (const bool of_rate : {false, true}) {
-      const double weight = of_rate ? bond_.of_rate : bond_.of_extension;
-      line.setZero();
-      line[of_rate ? 1 : 0] = 1.0;
-      line[of_rate ? 3 : 2] = -1.0;
-      if (!of_rate) line[Model::of_k23] = model_.m3 * model_.g / (model_.k23 * model_.k23);
-      square += (weight * line) * line.transpose();
-      right += weight *
-               (of_rate ? BondKnowledge::rate_off(stretches_[n])
-                        : BondKnowledge::extension_off(model_, stretches_[n])) *
-               line;
+      Line line{};
+      line[of_rate] = 1.0;
+      line[2 + of_rate] = -1.0;
+      if (of_rate == 0) line[Model::of_k23] = model_.m3 * model_.g / (model_.k23 * model_.k23);
+      add(line, of_rate == 1 ? bond_.of_rate : bond_.of_extension,
+          of_rate == 1 ? BondKnowledge::rate_off(stretches_[n])
+                       : BondKnowledge::extension_off(model_, stretches_[n]));
     }
     prior += bond_.off(model_, stretches_[n]);
-    of_stretch_[n] = {square.template topLeftCorner<starts, starts>(),
-                      square.template topRightCorner<starts, unknowns>(), right.template head<starts>()};
-    normal_ += square.template bottomRightCorner<unknowns, unknowns>();
-    right_ += right.template tail<unknowns>();
+    const Eigen::Map<const MatrixXd> all(square.column(0), all_unknowns, all_unknowns);
+    const Eigen::Map<const VectorXd> all_right(right.column(0), all_unknowns);
+    of_stretch_[n] = {all.topLeftCorner(starts, starts), all.topRightCorner(starts, unknowns),
+                      all_right.head(starts)};
+    normal_ += all.bottomRightCorner(unknowns, unknowns);
+    right_ += all_right.tail(unknowns);
   }
   const Index phase = Model::of_phase - starts;
   normal_(phase, phase) += phase_weight_;
@@ -803,9 +850,7 @@ std::optional<double> Fit<Model>::cost(const Model &model, const std::vector<Str
   const Motion motion(*signals_, model);
   for (const Stretch &stretch : stretches)
     if (!follow(motion, stretch, false,
-                [&](std::size_t, std::size_t sensor, double residual, const auto &, double) {
-                  sum += std::pow(residual / level_[sensor], 2);
-                }))
+                [&](const Observation &seen) { sum += std::pow(seen.residual / level_[seen.sensor], 2); }))
       return std::nullopt;
   return sum;
 }
@@ -838,29 +883,27 @@ bool Fit<Model>::solve() {
   double damping = first_damping;
   for (int round = 0; round < most_rounds; ++round) {
     // Starts are eliminated stretch by stretch.
-    Eigen::Matrix<double, unknowns, unknowns> reduced = normal_;
+    MatrixXd reduced = normal_;
     reduced.diagonal() *= 1.0 + damping;
-    Shared right = right_;
-    std::vector<Eigen::LDLT<Eigen::Matrix<double, starts, starts>>> own;
+    VectorXd right = right_;
+    std::vector<SymmetricSystem> own;
     for (const Equations &e : of_stretch_) {
-      Eigen::Matrix<double, starts, starts> square = e.own;
+      MatrixXd square = e.own;
       square.diagonal() *= 1.0 + damping;
       own.emplace_back(square);
-      reduced -= e.mixed.transpose() * own.back().solve(e.mixed);
-      right -= e.mixed.transpose() * own.back().solve(e.own_right);
+      own.back().eliminate(e.mixed, e.own_right, reduced, right);
     }
-    const Shared sizes = reduced.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Shared change = -sizes.cwiseProduct(
-        (sizes.asDiagonal() * reduced * sizes.asDiagonal()).ldlt().solve(sizes.cwiseProduct(right)));
+    const VectorXd change = -SymmetricSystem(reduced).solution(right);
     if (!change.allFinite()) return false;
     Model model = model_;
     std::vector<Stretch> stretches = stretches_;
     double expected = -change.dot(right_);
     for (std::size_t n = 0; n < stretches.size(); ++n) {
-      const typename Model::Start by =
-          -own[n].solve(of_stretch_[n].own_right + of_stretch_[n].mixed * change);
-      stretches[n].start += by;
-      expected -= by.dot(of_stretch_[n].own_right);
+      const Equations &e = of_stretch_[n];
+      const VectorXd by = -own[n].solution(e.own_right + e.mixed * change);
+      for (Index i = 0; i < starts; ++i)
+        stretches[n].start[i] += by[i];
+      expected -= by.dot(e.own_right);
     }
     bool possible = true;
     for (std::size_t j = 0; j < Model::contacts; ++j) {
@@ -899,38 +942,38 @@ template <class Model>
 std::optional<MatrixXd> Fit<Model>::covariance() {
   if (!equations()) return std::nullopt;
   MatrixXd reduced = normal_;
-  std::vector<Eigen::LDLT<Eigen::Matrix<double, starts, starts>>> own;
-  for (const Equations &e : of_stretch_) {
-    own.emplace_back(e.own);
-    reduced -= e.mixed.transpose() * own.back().solve(e.mixed);
-  }
-  const VectorXd sizes = reduced.diagonal().cwiseSqrt().cwiseInverse();
-  if (!sizes.allFinite()) return std::nullopt;
-  const Eigen::LDLT<MatrixXd> solver(sizes.asDiagonal() * reduced * sizes.asDiagonal());
+  VectorXd right = right_;
+  std::vector<MatrixXd> shares; // of what all stretches share in the starts
+  for (const Equations &e : of_stretch_)
+    shares.push_back(SymmetricSystem(e.own).eliminate(e.mixed, e.own_right, reduced, right));
+  const SymmetricSystem solver(reduced);
   constexpr double least_pivot = 1e-11;
-  if (!(solver.vectorD().minCoeff() > least_pivot)) return std::nullopt;
-  const MatrixXd plain =
-      sizes.asDiagonal() * solver.solve(MatrixXd::Identity(unknowns, unknowns)) * sizes.asDiagonal();
+  if (!(solver.least_pivot() > least_pivot)) return std::nullopt;
+  const MatrixXd plain = solver.inverse();
   // Residuals that are larger in some cycles, or correlated within them (sandwich estimator).
-  std::vector<Shared> scores;
+  std::vector<VectorXd> scores;
   const Motion motion(*signals_, model_);
   for (std::size_t n = 0; n < stretches_.size(); ++n) {
-    const Eigen::Matrix<double, starts, unknowns> share = own[n].solve(of_stretch_[n].mixed);
     std::size_t cycle = 0;
-    scores.emplace_back(Shared::Zero());
+    scores.emplace_back(VectorXd::Zero(unknowns));
     const std::size_t first = stretches_[n].first + signals_->filter.warm;
-    follow(motion, stretches_[n], true,
-           [&](std::size_t i, std::size_t sensor, double residual, const auto &row, double u) {
-             const auto now = static_cast<std::size_t>(static_cast<double>(i - first) / signals_->per_cycle);
-             if (now != cycle) scores.emplace_back(Shared::Zero());
-             cycle = now;
-             Shared all = observed(row, sensor, u);
-             all -= share.transpose() * row.template head<starts>().transpose();
-             scores.back() += residual / (level_[sensor] * level_[sensor]) * all;
-           });
+    follow(motion, stretches_[n], true, [&](const Observation &seen) {
+      const auto now =
+          static_cast<std::size_t>(static_cast<double>(seen.sample - first) / signals_->per_cycle);
+      if (now != cycle) scores.emplace_back(VectorXd::Zero(unknowns));
+      cycle = now;
+      const Line line = line_of(seen);
+      const double weighted = seen.residual / (level_[seen.sensor] * level_[seen.sensor]);
+      for (Index i = 0; i < unknowns; ++i) {
+        double all = line[static_cast<std::size_t>(starts + i)];
+        for (Index j = 0; j < starts; ++j)
+          all -= shares[n](j, i) * line[static_cast<std::size_t>(j)];
+        scores.back()[i] += weighted * all;
+      }
+    });
   }
   MatrixXd middle = MatrixXd::Zero(unknowns, unknowns);
-  for (const Shared &score : scores)
+  for (const VectorXd &score : scores)
     middle += score * score.transpose();
   const MatrixXd of_cycles = plain * middle * plain;
   // Noise that has passed the filter is correlated from sample to sample.
@@ -960,24 +1003,25 @@ bool Fit<Model>::is_noise() const {
   const Motion motion(*signals_, model_);
   for (const Stretch &stretch : stretches_) {
     std::array<std::array<double, lags>, sensors> before{};
-    follow(motion, stretch, false,
-           [&](std::size_t i, std::size_t sensor, double residual, const auto &, double) {
-             products[sensor][0] += residual * residual;
-             largest[sensor] = std::max(largest[sensor], std::fabs(residual));
-             for (std::size_t lag = 1; lag <= lags; ++lag)
-               products[sensor][lag] += residual * before[sensor][lag - 1];
-             std::rotate(before[sensor].begin(), before[sensor].end() - 1, before[sensor].end());
-             before[sensor][0] = residual;
-             double cycle = 0.0;
-             const double part = std::modf(model_.omega * signals_->time(i) / (2.0 * pi), &cycle);
-             const auto bin = std::min(bins - 1, static_cast<std::size_t>(std::fabs(part) * bins));
-             if (cycle != last_cycle) close_cycle();
-             last_cycle = cycle;
-             of_cycle[sensor][bin] += residual;
-             sums[sensor][bin] += residual;
-             counts[sensor][bin] += 1.0;
-             if (sensor == 0) count += 1.0;
-           });
+    follow(motion, stretch, false, [&](const Observation &seen) {
+      const std::size_t sensor = seen.sensor;
+      const double residual = seen.residual;
+      products[sensor][0] += residual * residual;
+      largest[sensor] = std::max(largest[sensor], std::fabs(residual));
+      for (std::size_t lag = 1; lag <= lags; ++lag)
+        products[sensor][lag] += residual * before[sensor][lag - 1];
+      std::rotate(before[sensor].begin(), before[sensor].end() - 1, before[sensor].end());
+      before[sensor][0] = residual;
+      double cycle = 0.0;
+      const double part = std::modf(model_.omega * signals_->time(seen.sample) / (2.0 * pi), &cycle);
+      const auto bin = std::min(bins - 1, static_cast<std::size_t>(std::fabs(part) * bins));
+      if (cycle != last_cycle) close_cycle();
+      last_cycle = cycle;
+      of_cycle[sensor][bin] += residual;
+      sums[sensor][bin] += residual;
+      counts[sensor][bin] += 1.0;
+      if (sensor == 0) count += 1.0;
+    });
   }
   close_cycle();
   for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
@@ -1011,11 +1055,11 @@ double Fit<Model>::tension() const {
   const Motion motion(*signals_, model_);
   for (const Stretch &stretch : stretches_) {
     follow(
-        motion, stretch, false, [](std::size_t, std::size_t, double, const auto &, double) {},
+        motion, stretch, false, [](const Observation & /*seen*/) {},
         [&](const State &y) {
           for (std::size_t j = 0; j < Model::contacts; ++j)
-            if (const double x = model_.position(y, j)(0); x < 0.0)
-              most = std::max(most, model_.k[j] * x + model_.c[j] * model_.velocity(y, j)(0));
+            if (const double x = model_.position(y.column(0), j); x < 0.0)
+              most = std::max(most, model_.k[j] * x + model_.c[j] * model_.velocity(y.column(0), j));
         });
   }
   return most;
@@ -1034,15 +1078,15 @@ std::vector<OneContact::Stretch> first_stretches(const Signals &signals, const I
       if (static_cast<double>(i - stretches.back().first) < least_cycles_apart * signals.per_cycle) continue;
       stretches.back().end = i;
     }
-    stretches.push_back({i, signals.size(), {start.x[i], start.v[i], 0.0, 0.0}});
+    stretches.push_back({i, signals.size(), {{start.x[i], start.v[i], 0.0, 0.0}}});
   }
   return stretches;
 }
 
 // Position and velocity at a contact at a sample, integrated from the nearest one of this contact; nothing if
 // that is more than a cycle away.
-std::optional<Eigen::Vector2d> state_at(std::size_t sample, const Identification &contact,
-                                        const std::vector<double> &a, const Signals &signals) {
+std::optional<Pair> state_at(std::size_t sample, const Identification &contact, const std::vector<double> &a,
+                             const Signals &signals) {
   const auto known = [&](std::size_t i) { return i < contact.x.size() && std::isfinite(contact.x[i]); };
   for (std::size_t off = 0; static_cast<double>(off) <= signals.per_cycle; ++off) {
     const double time = signals.dt * static_cast<double>(off);
@@ -1050,13 +1094,12 @@ std::optional<Eigen::Vector2d> state_at(std::size_t sample, const Identification
       const std::size_t at = sample + off;
       const Integrals way = integrals(a, {sample, at + 1}, signals.dt);
       const double v = contact.v[at] - way.once.back();
-      return Eigen::Vector2d(contact.x[at] - time * v - way.twice.back(), v);
+      return Pair{contact.x[at] - time * v - way.twice.back(), v};
     }
     if (off <= sample && known(sample - off)) {
       const std::size_t at = sample - off;
       const Integrals way = integrals(a, {at, sample + 1}, signals.dt);
-      return Eigen::Vector2d(contact.x[at] + time * contact.v[at] + way.twice.back(),
-                             contact.v[at] + way.once.back());
+      return Pair{contact.x[at] + time * contact.v[at] + way.twice.back(), contact.v[at] + way.once.back()};
     }
   }
   return std::nullopt;
@@ -1073,7 +1116,7 @@ first_stretches(const Signals &signals, const std::array<HalfStart, 2> &halves, 
     if (!stretches.empty() &&
         static_cast<double>(i - stretches.back().first) < least_cycles_apart * signals.per_cycle)
       continue;
-    std::array<Eigen::Vector2d, 2> ends;
+    std::array<Pair, 2> ends;
     bool known = true;
     for (std::size_t j = 0; j < ends.size(); ++j) {
       const auto end = state_at(i, halves[j].contact, halves[j].acceleration, signals);
@@ -1082,11 +1125,11 @@ first_stretches(const Signals &signals, const std::array<HalfStart, 2> &halves, 
     }
     if (!known) continue;
     if (!stretches.empty()) stretches.back().end = i;
-    const Eigen::Vector2d middle = (model.place[1] * ends[0] - model.place[0] * ends[1]) / apart,
-                          tilt = (ends[1] - ends[0]) / apart;
-    TwoContacts::Stretch stretch{i, signals.size(), TwoContacts::Start::Zero()};
-    stretch.start.head<2>() = middle;
-    stretch.start.segment<2>(4) = tilt;
+    TwoContacts::Stretch stretch{i, signals.size(), {}};
+    for (std::size_t of = 0; of < 2; ++of) { // position and velocity, of the middle and of the tilt
+      stretch.start.all[of] = (model.place[1] * ends[0][of] - model.place[0] * ends[1][of]) / apart;
+      stretch.start.all[4 + of] = (ends[1][of] - ends[0][of]) / apart;
+    }
     stretches.push_back(stretch);
   }
   return stretches;
@@ -1094,38 +1137,42 @@ first_stretches(const Signals &signals, const std::array<HalfStart, 2> &halves, 
 
 // m (a + g) of a mass is the force of a spring and a dashpot, whose length and speed are integrals of the
 // accelerations of foot and mass and, of each stretch, two unknowns.
-struct BondRows {
-  Eigen::MatrixX2d bond, own;
-  VectorXd force;
-
+class BondRows {
+public:
   BondRows(const std::vector<double> &foot, const std::vector<double> &mass, double m, double g,
-           const SampleRun &run, double dt)
-      : bond(run.size(), 2), own(run.size(), 2), force(run.size()) {
+           const SampleRun &run, double dt) {
     std::vector<double> between(run.size());
     for (std::size_t j = 0; j < between.size(); ++j)
       between[j] = foot[run.first + j] - mass[run.first + j];
     const Integrals way = integrals(between, {0, between.size()}, dt);
     for (std::size_t j = 0; j < between.size(); ++j) {
-      const auto row = static_cast<Index>(j);
-      bond.row(row) << way.twice[j], way.once[j];
-      own.row(row) << 1.0, dt * static_cast<double>(j);
-      force[row] = m * (mass[run.first + j] + g);
+      const std::array<double, 5> row = {way.twice[j], way.once[j], m * (mass[run.first + j] + g), 1.0,
+                                         dt * static_cast<double>(j)};
+      for (Index a = 0; a < 5; ++a)
+        for (Index b = 0; b < 5; ++b)
+          products_(a, b) += row[static_cast<std::size_t>(a)] * row[static_cast<std::size_t>(b)];
     }
   }
   // Adds the normal equations of stiffness and damping.
-  void add(Eigen::Matrix2d &square, Eigen::Vector2d &right) const {
-    const Eigen::LDLT<Eigen::Matrix2d> solver(own.transpose() * own);
-    const Eigen::MatrixX2d left = bond - own * solver.solve(own.transpose() * bond);
-    square += left.transpose() * left;
-    right += left.transpose() * force;
+  void add(MatrixXd &square, VectorXd &right) const {
+    MatrixXd left = products_.topLeftCorner(3, 3);
+    VectorXd none = VectorXd::Zero(3);
+    SymmetricSystem(products_.bottomRightCorner(2, 2))
+        .eliminate(products_.bottomLeftCorner(2, 3), VectorXd::Zero(2), left, none);
+    square += left.topLeftCorner(2, 2);
+    right += left.block(0, 2, 2, 1);
   }
   // Extension and its rate at the first sample.
-  Eigen::Vector2d start(const Eigen::Vector2d &law) const {
-    const Eigen::Vector2d found =
-        (own.transpose() * own).ldlt().solve(own.transpose() * (force - bond * law));
+  Pair start(const Pair &law) const {
+    const VectorXd found = SymmetricSystem(products_.bottomRightCorner(2, 2))
+                               .solution(products_.block(3, 2, 2, 1) - law[0] * products_.block(3, 0, 2, 1) -
+                                         law[1] * products_.block(3, 1, 2, 1));
     const double speed = found[1] / law[0];
     return {(found[0] - law[1] * speed) / law[0], speed};
   }
+
+private:
+  MatrixXd products_ = MatrixXd::Zero(5, 5); // of length, speed, force and the rows of the two unknowns
 };
 
 // Bond and motion of the frame.
@@ -1135,20 +1182,21 @@ bool start_frame(const Signals &signals, Model &model, std::vector<typename Mode
   const auto rows_of = [&](const auto &stretch) {
     return BondRows(signals.drum, signals.frame, model.m3, model.g, {stretch.first, stretch.end}, signals.dt);
   };
-  Eigen::Vector2d law(bond_known.stiffness, bond_known.damping);
+  Pair law = {bond_known.stiffness, bond_known.damping};
   if (!(bond_known.of_stiffness > 0.0)) {
-    Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    MatrixXd square = MatrixXd::Zero(2, 2);
+    VectorXd right = VectorXd::Zero(2);
     for (const auto &stretch : stretches)
       rows_of(stretch).add(square, right);
-    law = square.ldlt().solve(right);
+    const VectorXd found = SymmetricSystem(square).solution(right);
+    law = {found[0], found[1]};
   }
-  if (!law.allFinite() || !(law[0] > 0.0)) return false;
+  if (!std::isfinite(law[1]) || !(law[0] > 0.0) || !std::isfinite(law[0])) return false;
   model.k23 = law[0];
   model.c23 = law[1];
   const double extension = model.m3 * model.g / model.k23;
   for (auto &stretch : stretches) {
-    Eigen::Vector2d bond = rows_of(stretch).start(law);
+    Pair bond = rows_of(stretch).start(law);
     if constexpr (Model::tilts) {
       // A bond whose sides differ is turned by the weight that it carries.
       const BondPlaces &spring = model.spring;
@@ -1158,9 +1206,11 @@ bool start_frame(const Signals &signals, Model &model, std::vector<typename Mode
                               {stretch.first, stretch.end}, signals.dt)
                          .start({law[0] * spring.second, law[1] * model.dashpot.second});
       stretch.turn[0] -= spring.first / spring.second * whole;
-      stretch.start.template segment<2>(6) = stretch.start.template segment<2>(4) - stretch.turn;
+      for (std::size_t of = 0; of < 2; ++of)
+        stretch.start.all[6 + of] = stretch.start.all[4 + of] - stretch.turn[of];
     }
-    stretch.start.template segment<2>(2) = stretch.start.template segment<2>(0) - bond;
+    for (std::size_t of = 0; of < 2; ++of)
+      stretch.start.all[2 + of] = stretch.start.all[of] - bond[of];
     stretch.bond = {bond[0] - extension, bond[1]};
   }
   return true;

@@ -1,11 +1,10 @@
 #include "record/excitation.h"
 
 #include "chain/contact_phases.h"
+#include "chain/linear_algebra.h"
 #include "support/csv.h"
 #include "support/range.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -129,14 +128,14 @@ std::optional<MeanInterval> frequency_of(const std::vector<double> &signal, doub
     normal = normal.selfadjointView<Eigen::Lower>();
     const bool first = round == 0; // the waves alone, by which the frequency has a slope
     const Eigen::Index fitted = unknowns - (first ? 1 : 0);
-    const Eigen::LDLT<Eigen::MatrixXd> solver(normal.topLeftCorner(fitted, fitted));
-    const Eigen::VectorXd change = solver.solve(right.head(fitted));
+    const SymmetricSystem solver(normal.topLeftCorner(fitted, fitted));
+    const Eigen::VectorXd change = solver.solution(right.head(fitted));
     waves.head(unknowns - 1) += change.head(unknowns - 1);
     if (first) continue;
     const double step = change[unknowns - 1];
     omega += step;
     if (!(std::fabs(omega - nominal) < frequency_range * nominal)) return std::nullopt;
-    const Eigen::VectorXd direction = solver.solve(Eigen::VectorXd::Unit(unknowns, unknowns - 1));
+    const Eigen::VectorXd direction = solver.solution(Eigen::VectorXd::Unit(unknowns, unknowns - 1));
     information = direction[unknowns - 1];
     scores.clear();
     for (const Eigen::VectorXd &gradient : of_cycle)
@@ -255,7 +254,7 @@ double fit_flights(const Forces &forces, const std::vector<Flight> &flights, Exc
       left += off * off;
     }
   }
-  const Eigen::Matrix4d inverse = square.ldlt().solve(Eigen::Matrix4d::Identity());
+  const Eigen::Matrix4d inverse = SymmetricSystem(square).inverse();
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();
   for (const Eigen::Vector4d &score : scores)
     sum += score;
@@ -533,7 +532,7 @@ void take_pulses(Record &record, const RecordOptions &options) {
         square += weight * row * row.transpose();
         right += weight * left[n] * row;
       }
-      record.wander.push_back(square.ldlt().solve(right)[0]);
+      record.wander.push_back(SymmetricSystem(square).solution(right)[0]);
     }
   }
   record.notes.push_back(fmt::format(
