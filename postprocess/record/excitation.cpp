@@ -351,7 +351,8 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
   if (record.two_sided() && !forbid_moments(record, forces)) return std::nullopt;
   constexpr double narrow = 0.001;                        // of Fw
   const double wide = record.logger_filter ? 0.06 : 0.03; // a filter makes landings swing
-  double width = wide * forces.Fw + 3.0 * noise;
+  const double widest = wide * forces.Fw + 4.0 * noise;
+  double width = widest;
   Exciter exciter = best_phase(forces, *record.omega, ratio, width, least);
   FlightFit fit;
   std::vector<double> force = all_forces(forces, exciter);
@@ -370,10 +371,10 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
       ++flight.first;
       --flight.end;
     }
-    const double left = fit_flights(forces, flights, exciter, fit);
+    fit.left = fit_flights(forces, flights, exciter, fit);
     fit.share = static_cast<double>(samples_of(flights)) / static_cast<double>(record.size());
     force = all_forces(forces, exciter);
-    width = std::max(narrow * forces.Fw, 4.0 * left);
+    width = std::clamp(4.0 * fit.left, narrow * forces.Fw, widest);
   }
   // One flight in a cycle at most, after which the soil presses.
   const std::vector<Flight> others = runs_of(force, 2, [width](double f) { return std::fabs(f) > width; });
@@ -693,11 +694,21 @@ void check_signs(const Record &record) {
   if (record.phase) {
     const double taken = (drum * std::polar(1.0, -*record.phase)).real() / std::abs(drum);
     if (std::fabs(taken) > clear) side = taken > 0.0 ? -1.0 : 1.0;
+    if (side < 0.0 && !one_end && !frame_turned(drum)) { // flights tell whether it is the phase
+      Record other = record;
+      turn(other.a_drum);
+      turn(other.a_frame);
+      const std::optional<FlightFit> given = flights_of(record), turned = flights_of(other);
+      if (given && (!turned || given->left < turned->left)) side = 1.0;
+    }
   } else if (frame_turned(drum) && !one_end) { // flights tell which of both it is
     Record of_frame = record, of_drum = record;
     turn(of_frame.a_frame);
     turn(of_drum.a_drum);
-    if (!flights_of(of_frame) && flights_of(of_drum)) side = -1.0;
+    const std::optional<FlightFit> with_frame = flights_of(of_frame), with_drum = flights_of(of_drum);
+    if (!with_frame && !with_drum)
+      refuse_sign(record, "a_frame or a_drum", "the bond moves the frame with the drum");
+    if (!with_frame || (with_drum && with_drum->left < with_frame->left)) side = -1.0;
   }
   std::string columns;
   if (one_end)

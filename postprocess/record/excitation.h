@@ -38,6 +38,7 @@ struct FlightFit {
   MeanInterval ratio{}; ///< amplitude of the exciter's force over Fw [-]
   double share = 0.0;   ///< of the samples that are in flight [-]
   std::size_t flights = 0; ///< number
+  double left = 0.0;       ///< RMS of the force in flight [N]
 };
 
 /// Finds the flights, of `ratio` times the given force of the exciter to some 5 %, of a record whose omega,
