@@ -50,7 +50,8 @@ RecordSetting judge(const Arguments &arguments) {
   setting.accelerations_only = arguments.accelerations_only;
   if (arguments.origin)
     setting.known_origin = choice_option("--origin", *arguments.origin, {"known", "free"}) == "known";
-  constexpr double most_degrees = 20.0;
+  constexpr double most_degrees = 20.0, usual_degrees = 3.0;
+  if (arguments.record.phase) setting.phase_within = pi / 180.0 * usual_degrees;
   if (arguments.phase_within)
     setting.phase_within =
         pi / 180.0 * number_option("--phase-within", *arguments.phase_within, {0.0, most_degrees, "degrees"});
@@ -145,7 +146,7 @@ std::optional<MachinePart> machine_part(const MachineTolerances &tolerances, con
     a.c23 = fmt::format("{:.17g}", by * record.bond->damping);
   });
   add(tolerances.me_re, [&](RecordArguments &a, double by) {
-    const double Fw = by * record.said_Fw.value_or(*record.Fw);
+    const double Fw = by * *record.Fw;
     if (a.Fw)
       a.Fw = fmt::format("{:.17g}", Fw);
     else
@@ -274,7 +275,7 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
   text_option(
       identify, "--phase-within", "NUMBER", arguments->phase_within,
       "largest error of the exciter's phase [degrees], 0 to 20: the phase is then fitted as far as the "
-      "record tells it; 0 if not given");
+      "record tells it; if not given 3 for --phase, else 0");
   text_option(
       identify, "--least-force", "NUMBER", arguments->least_force,
       "forces up to this share of the largest one [%] are not fitted, unless the law follows them, 0 to 90; "

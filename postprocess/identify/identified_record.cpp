@@ -141,7 +141,13 @@ std::optional<std::string> contradiction(const IdentifiedRecord &record) {
   if (law.k.half_width > law.k.mean)
     return fmt::format("k is {:.4g} +- {:.2g} N/m, which says nothing; to be checked: {}", law.k.mean,
                        law.k.half_width, causes);
-  if (negative(law.c))
+  constexpr double much = 0.5; // of the drum's acceleration
+  if (record.left && *record.left > much)
+    return fmt::format(
+        "drum, frame, bond and soil leave {:.3g} % of the drum's acceleration; to be checked: {}",
+        100.0 * *record.left, causes);
+  constexpr double rounding = -0.02; // of D, for a soil without damping
+  if (negative(law.c) || law.D.mean < rounding)
     return fmt::format("c is {:.4g} +- {:.2g} N s/m, and no soil drives the drum; to be checked: {}",
                        law.c.mean, law.c.half_width, causes);
   constexpr double poor = 0.9; // R2 of a law that does not follow the tension that it is said to have
@@ -163,22 +169,6 @@ double rms(const std::vector<double> &values) {
   for (const double value : values)
     squares += value * value;
   return std::sqrt(squares / static_cast<double>(values.size()));
-}
-
-/// What the whole motion says, from the contacts or, if they are far off, from a softer or harder soil.
-std::optional<MotionFit> follow_motion(const Record &record, const Identification &contacts,
-                                       const MotionSetting &setting) {
-  std::optional<MotionFit> first;
-  for (const double factor : {1.0, 0.75, 1.35}) {
-    Identification start = contacts;
-    start.law.k.mean *= factor;
-    for (double &x : start.x)
-      x /= factor;
-    std::optional<MotionFit> fit = fit_motion(record, start, setting);
-    if (fit && fit->is_noise) return fit;
-    if (!first) first = fit;
-  }
-  return first;
 }
 
 /// Whether the record has what the equations of motion of drum and frame need, and no positions beside it.
@@ -218,7 +208,7 @@ bool find_phase(Record &record, const IdentificationSetting &law) {
   std::optional<MotionFit> best;
   constexpr int trials = 8;
   for (int trial = 0; trial < trials; ++trial) {
-    const std::optional<MotionFit> fit = fit_from(2.0 * pi * trial / trials, {});
+    const std::optional<MotionFit> fit = fit_from(2.0 * pi * trial / trials, {std::nullopt, 0.0, false});
     if (fit && follows(*fit) && (!best || fit->residual < best->residual)) best = fit;
   }
   // In unbroken contact a phase fits as well as another, up to that at which contact would just be lost.
@@ -228,7 +218,7 @@ bool find_phase(Record &record, const IdentificationSetting &law) {
   for (const double other : {-4.0, 4.0, -8.0, 8.0, -15.0, 15.0}) {
     constexpr double held = 1e-4;
     part.omega = best->omega.mean;
-    const std::optional<MotionFit> fit = fit_from(best->phase.mean + other * degree, {held});
+    const std::optional<MotionFit> fit = fit_from(best->phase.mean + other * degree, {held, 0.0, false});
     if (fit && fit->residual < as_good) return false;
   }
   record.phase = best->phase.mean;
@@ -299,10 +289,11 @@ IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &
   if (!record.logger_filter) // of single contacts, whose landings a filter smooths
     result.windows = windows_of(signals, law, result, setting.window, progress);
   if (has_motion(record) && !result.positions) {
-    MotionSetting of_phase;
-    if (record.phase_half_width == 0.0) of_phase.phase_within = phase_within;
+    MotionSetting known;
+    if (record.phase_half_width == 0.0) known.phase_within = phase_within;
+    known.force_within = record.tolerances.me_re;
     if (progress) progress("the motion from contact to contact");
-    if (const std::optional<MotionFit> motion = follow_motion(record, result.whole, of_phase)) {
+    if (const std::optional<MotionFit> motion = fit_motion(record, result.whole, known)) {
       const double close = record.logger_filter ? most_left_of_filtered : 0.05; // of the drum's acceleration
       result.left = motion->residual / rms(record.a_drum);
       if (motion->is_noise || *result.left < close) take_motion(*motion, record, result);
@@ -342,7 +333,6 @@ IdentifiedRecord identify_from_any_phase(const Record &given, const RecordSettin
   if (!found.left || (found.motion && found.motion->is_noise)) return found;
   // What looked like flights may have been a contact of little force.
   Record other = given;
-  other.Fw = other.said_Fw.value_or(*other.Fw);
   if (given.phase_half_width == 0.0 || !find_phase(other, law)) return found;
   IdentifiedRecord again = identify_with_phase(other, setting, law, progress);
   return tells_phase(again) ? again : found;

@@ -2,10 +2,12 @@
 
 #include "chain/linear_algebra.h"
 #include "record/both_ends.h"
+#include "record/excitation.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -92,8 +94,8 @@ struct ModelOf {
   // stretches share.
   static constexpr Index of_k(Index contact) { return starts + 2 * contact; }
   static constexpr Index of_c(Index contact) { return of_k(contact) + 1; }
-  static constexpr Index of_k23 = starts + 2 * contacts, of_c23 = of_k23 + 1, of_phase = of_k23 + 2,
-                         of_omega = of_k23 + 3, columns = of_k23 + 4;
+  static constexpr Index of_k23 = starts + 2 * contacts, of_c23 = of_k23 + 1, of_force = of_k23 + 2,
+                         of_omega = of_k23 + 3, of_phase = of_k23 + 4, columns = of_k23 + 5;
   using Slopes = Numbers<size, columns>;
   // Behind the derivatives that states have, an observation has those by offset and drift of each sensor.
   static constexpr Index shared = columns - starts, unknowns = shared + 2 * static_cast<Index>(sensors);
@@ -109,7 +111,9 @@ struct ModelOf {
   double exciter = 0.0;
   BondPlaces spring{}, dashpot{};
 
-  double Fw() const { return me_re * omega * omega; } // amplitude of the exciter's force [N]
+  double force = 1.0; // of the exciter, over that which is said
+
+  double Fw() const { return force * me_re * omega * omega; } // amplitude of the exciter's force [N]
 
   // The drum's position and velocity at a contact, of a state or a derivative of it.
   double position(const double *y, std::size_t contact) const {
@@ -164,9 +168,9 @@ struct ModelOf {
     d[1] = (-bond - Fw() * y[of_sine]) / m2 - g * y[of_one];
     for (std::size_t j = 0; j < contacts; ++j) {
       if (((acting >> j) & 1U) == 0) continue;
-      const double force = k[j] * position(y, j) + c[j] * velocity(y, j);
-      d[1] -= force / m2;
-      if constexpr (tilts) d[5] -= place[j] / I2 * force;
+      const double pull = k[j] * position(y, j) + c[j] * velocity(y, j);
+      d[1] -= pull / m2;
+      if constexpr (tilts) d[5] -= place[j] / I2 * pull;
     }
     d[2] = y[3];
     d[3] = bond / m3 - g * y[of_one];
@@ -196,7 +200,8 @@ struct ModelOf {
       s(7, of_k23) += of_spring / I3;
       s(5, of_c23) -= of_dashpot / I2;
       s(7, of_c23) += of_dashpot / I3;
-      s(5, of_omega) -= factor * exciter * 2.0 * me_re * omega * y[of_sine] / I2;
+      s(5, of_omega) -= factor * exciter * 2.0 * Fw() / omega * y[of_sine] / I2;
+      s(5, of_force) -= factor * exciter * Fw() / force * y[of_sine] / I2;
       stretch += spring.first * turn;
       speed += dashpot.first * turning;
     }
@@ -204,7 +209,8 @@ struct ModelOf {
     s(3, of_k23) += stretch / m3;
     s(1, of_c23) -= speed / m2;
     s(3, of_c23) += speed / m3;
-    s(1, of_omega) -= factor * 2.0 * me_re * omega * y[of_sine] / m2;
+    s(1, of_omega) -= factor * 2.0 * Fw() / omega * y[of_sine] / m2;
+    s(1, of_force) -= factor * Fw() / force * y[of_sine] / m2;
     s(of_sine, of_omega) += factor * y[of_cosine];
     s(of_cosine, of_omega) -= factor * y[of_sine];
   }
@@ -383,11 +389,9 @@ public:
 private:
   static constexpr Index size = Model::size, columns = Model::columns, of_sine = Model::of_sine,
                          of_phase = Model::of_phase;
-  // All but the phase: stiffness and damping of contacts and bond, and the frequency.
+  // All but the phase: stiffness and damping of contacts and bond, force and frequency.
   static constexpr Index of_parameters = Model::shared - 1;
-  static Index parameter(Index p) {
-    return p + 1 < of_parameters ? Model::starts + p : Index(Model::of_omega);
-  }
+  static Index parameter(Index p) { return Model::starts + p; }
   Numbers<size, size> all_;
   std::array<Numbers<size, size>, of_parameters> by_;
   MatrixXd of_filter_, into_filter_;
@@ -457,15 +461,23 @@ void pass_event(const Model &model, std::size_t contact, Set acting, const typen
   }
 }
 
-// What is known of the bond and of its extension, as weights; 0: nothing.
-struct BondKnowledge {
+// What is known besides the record, as weights; 0: nothing.
+struct Known {
   double stiffness = 0.0, damping = 0.0;       // said
   double of_stiffness = 0.0, of_damping = 0.0; // weights of these
   double of_extension = 0.0, of_rate = 0.0;    // weights of what a stretch starts with
   double of_turn = 0.0, of_turning = 0.0;      // and of how the frame is tilted against the drum there
+  double phase = 0.0, of_phase = 0.0;          // of the exciter at time 0, said, and its weight
+  double of_force = 0.0;                       // weight of the exciter's force over that said
+  // What the distance from that phase adds to the sum of squares.
+  template <class Model>
+  double phase_off(const Model &model) const {
+    return of_phase * std::pow(model.phase - phase, 2);
+  }
   template <class Model>
   double off(const Model &model) const {
-    return of_stiffness * std::pow(model.k23 - stiffness, 2) + of_damping * std::pow(model.c23 - damping, 2);
+    return phase_off(model) + of_force * std::pow(model.force - 1.0, 2) +
+           of_stiffness * std::pow(model.k23 - stiffness, 2) + of_damping * std::pow(model.c23 - damping, 2);
   }
   // By how much a stretch starts with another extension, or rate of it, than was first found; the static part
   // of the extension goes with the present stiffness.
@@ -537,10 +549,8 @@ public:
                          shared = Model::shared;
   static constexpr std::size_t sensors = Model::sensors;
 
-  Fit(const Signals &signals, Model model, std::vector<Stretch> stretches, double phase_weight,
-      double phase_said, const BondKnowledge &bond)
-      : signals_(&signals), model_(model), stretches_(std::move(stretches)), phase_weight_(phase_weight),
-        phase_said_(phase_said), bond_(bond) {}
+  Fit(const Signals &signals, Model model, std::vector<Stretch> stretches, const Known &known)
+      : signals_(&signals), model_(model), stretches_(std::move(stretches)), known_(known) {}
 
   bool solve();
   void join(std::size_t together) { stretches_ = joined(stretches_, together); }
@@ -557,12 +567,20 @@ public:
   // phase.
   bool contradicts_phase() const {
     constexpr double far = 3.0 * 3.0 * 3.84, told = 0.02; // three half widths; rad
-    return std::fabs(model_.phase - phase_said_) > told && phase_cost() > far;
+    return std::fabs(model_.phase - known_.phase) > told && known_.phase_off(model_) > far;
   }
-  // What the distance from that phase adds to the sum of squares.
-  double phase_cost() const { return phase_weight_ * std::pow(model_.phase - phase_said_, 2); }
+  // Twice the logarithm of one over the likelihood, and the number of starts twice (Akaike 1974).
+  double cost() const {
+    double sum =
+        known_.off(model_) + 2.0 * static_cast<double>(starts) * static_cast<double>(stretches_.size());
+    for (std::size_t sensor = 0; sensor < sensors; ++sensor)
+      sum += 2.0 * static_cast<double>(samples_) * std::log(level_[sensor]);
+    return sum;
+  }
   // The largest tension of the law while drum and soil overlap.
   double tension() const;
+  // The share of samples in which a contact does not act, of that which is lost least.
+  double least_lost() const;
 
 private:
   // Derivatives of an observation by the start of its stretch and by what all stretches share.
@@ -613,8 +631,7 @@ private:
   const Signals *signals_;
   Model model_;
   std::vector<Stretch> stretches_;
-  double phase_weight_, phase_said_;
-  BondKnowledge bond_;
+  Known known_;
   std::vector<Equations> of_stretch_;
   MatrixXd normal_;
   VectorXd right_;
@@ -727,7 +744,9 @@ bool Fit<Model>::follow(const Motion &motion, const Stretch &stretch, bool slope
     if (!std::isfinite(y.largest())) return false;
     if (filter) continue;
     // Next to an event a sample is taken for that side of it which is nearer: else the acceleration's jump
-    // would hold the event between two samples while the parameters still change.
+    // would hold the event between two samples while the parameters still change. By chance alone no side is
+    // nearer: a choice among noise would make motions with more events fit better.
+    const double chance = 9.0 * level_[0] * level_[0];
     const Set near = turned | changed;
     changed = turned;
     const auto left_with = [&](Set set) {
@@ -745,7 +764,7 @@ bool Fit<Model>::follow(const Motion &motion, const Stretch &stretch, bool slope
       for (Set flipped = 1; flipped <= near; ++flipped) {
         if ((flipped & near) != flipped) continue;
         const double squares = left_with(touches ^ flipped);
-        if (!(squares < least)) continue;
+        if (!(squares + chance < least)) continue;
         least = squares;
         side = touches ^ flipped;
       }
@@ -779,7 +798,7 @@ bool Fit<Model>::equations() {
   samples_ = 0;
   const Motion motion(*signals_, model_);
   constexpr Index all_unknowns = starts + unknowns;
-  double prior = bond_.off(model_);
+  double prior = known_.off(model_);
   for (std::size_t n = 0; n < stretches_.size(); ++n) {
     Numbers<all_unknowns, all_unknowns> square;
     Numbers<all_unknowns> right;
@@ -802,18 +821,16 @@ bool Fit<Model>::equations() {
         Line line{};
         line[4 + of_rate] = 1.0;
         line[6 + of_rate] = -1.0;
-        add(line, of_rate == 1 ? bond_.of_turning : bond_.of_turn,
-            BondKnowledge::turn_off(stretches_[n], of_rate));
+        add(line, of_rate == 1 ? known_.of_turning : known_.of_turn, Known::turn_off(stretches_[n], of_rate));
       }
       Line line{};
       line[of_rate] = 1.0;
       line[2 + of_rate] = -1.0;
       if (of_rate == 0) line[Model::of_k23] = model_.m3 * model_.g / (model_.k23 * model_.k23);
-      add(line, of_rate == 1 ? bond_.of_rate : bond_.of_extension,
-          of_rate == 1 ? BondKnowledge::rate_off(stretches_[n])
-                       : BondKnowledge::extension_off(model_, stretches_[n]));
+      add(line, of_rate == 1 ? known_.of_rate : known_.of_extension,
+          of_rate == 1 ? Known::rate_off(stretches_[n]) : Known::extension_off(model_, stretches_[n]));
     }
-    prior += bond_.off(model_, stretches_[n]);
+    prior += known_.off(model_, stretches_[n]);
     const Eigen::Map<const MatrixXd> all(square.column(0), all_unknowns, all_unknowns);
     const Eigen::Map<const VectorXd> all_right(right.column(0), all_unknowns);
     of_stretch_[n] = {all.topLeftCorner(starts, starts), all.topRightCorner(starts, unknowns),
@@ -821,22 +838,20 @@ bool Fit<Model>::equations() {
     normal_ += all.bottomRightCorner(unknowns, unknowns);
     right_ += all_right.tail(unknowns);
   }
-  const Index phase = Model::of_phase - starts;
-  normal_(phase, phase) += phase_weight_;
-  right_[phase] += phase_weight_ * (model_.phase - phase_said_);
   for (std::size_t sensor = 0; sensor < sensors; ++sensor)
     if (signals_->a[sensor] == nullptr)
       for (Index i = 0; i < 2; ++i)
         normal_(shared + 2 * static_cast<Index>(sensor) + i, shared + 2 * static_cast<Index>(sensor) + i) +=
             1.0;
-  const std::pair<Index, double> of_bond[] = {{Model::of_k23, bond_.of_stiffness},
-                                              {Model::of_c23, bond_.of_damping}};
-  for (const auto &[column, weight] : of_bond) {
+  const auto add_known = [&](Index column, double weight, double off) {
     normal_(column - starts, column - starts) += weight;
-    right_[column - starts] +=
-        weight * (column == Model::of_k23 ? model_.k23 - bond_.stiffness : model_.c23 - bond_.damping);
-  }
-  cost_ = prior + phase_weight_ * std::pow(model_.phase - phase_said_, 2);
+    right_[column - starts] += weight * off;
+  };
+  add_known(Model::of_k23, known_.of_stiffness, model_.k23 - known_.stiffness);
+  add_known(Model::of_c23, known_.of_damping, model_.c23 - known_.damping);
+  add_known(Model::of_force, known_.of_force, model_.force - 1.0);
+  add_known(Model::of_phase, known_.of_phase, model_.phase - known_.phase);
+  cost_ = prior;
   for (std::size_t sensor = 0; sensor < sensors; ++sensor)
     cost_ += squares_[sensor] / (level_[sensor] * level_[sensor]);
   return true;
@@ -844,9 +859,9 @@ bool Fit<Model>::equations() {
 
 template <class Model>
 std::optional<double> Fit<Model>::cost(const Model &model, const std::vector<Stretch> &stretches) {
-  double sum = bond_.off(model) + phase_weight_ * std::pow(model.phase - phase_said_, 2);
+  double sum = known_.off(model);
   for (const Stretch &stretch : stretches)
-    sum += bond_.off(model, stretch);
+    sum += known_.off(model, stretch);
   const Motion motion(*signals_, model);
   for (const Stretch &stretch : stretches)
     if (!follow(motion, stretch, false,
@@ -913,6 +928,7 @@ bool Fit<Model>::solve() {
     }
     model.k23 += change[Model::of_k23 - starts];
     model.c23 += change[Model::of_c23 - starts];
+    model.force += change[Model::of_force - starts];
     model.phase += change[Model::of_phase - starts];
     model.omega += change[Model::of_omega - starts];
     for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
@@ -1050,6 +1066,20 @@ bool Fit<Model>::is_noise() const {
 }
 
 template <class Model>
+double Fit<Model>::least_lost() const {
+  std::array<double, Model::contacts> lost{};
+  const Motion motion(*signals_, model_);
+  for (const Stretch &stretch : stretches_)
+    follow(
+        motion, stretch, false, [](const Observation & /*seen*/) {},
+        [&](const State &y) {
+          for (std::size_t j = 0; j < Model::contacts; ++j)
+            if (!(model_.indicator(y, j) > 0.0)) lost[j] += 1.0 / static_cast<double>(samples_);
+        });
+  return *std::min_element(lost.begin(), lost.end());
+}
+
+template <class Model>
 double Fit<Model>::tension() const {
   double most = 0.0;
   const Motion motion(*signals_, model_);
@@ -1178,12 +1208,12 @@ private:
 // Bond and motion of the frame.
 template <class Model>
 bool start_frame(const Signals &signals, Model &model, std::vector<typename Model::Stretch> &stretches,
-                 const BondKnowledge &bond_known) {
+                 const Known &known) {
   const auto rows_of = [&](const auto &stretch) {
     return BondRows(signals.drum, signals.frame, model.m3, model.g, {stretch.first, stretch.end}, signals.dt);
   };
-  Pair law = {bond_known.stiffness, bond_known.damping};
-  if (!(bond_known.of_stiffness > 0.0)) {
+  Pair law = {known.stiffness, known.damping};
+  if (!(known.of_stiffness > 0.0)) {
     MatrixXd square = MatrixXd::Zero(2, 2);
     VectorXd right = VectorXd::Zero(2);
     for (const auto &stretch : stretches)
@@ -1225,13 +1255,6 @@ template <class Model>
 struct Solved {
   Fit<Model> fit;
   MatrixXd covariance;
-
-  double cost() const {
-    double sum = fit.phase_cost();
-    for (std::size_t sensor = 0; sensor < Model::sensors; ++sensor)
-      sum += 2.0 * static_cast<double>(fit.samples()) * std::log(fit.level(sensor));
-    return sum;
-  }
 };
 
 template <class Model>
@@ -1240,6 +1263,48 @@ std::optional<Solved<Model>> solved(Fit<Model> fit) {
   const std::optional<MatrixXd> covariance = fit.covariance();
   return covariance ? std::optional(Solved<Model>{std::move(fit), *covariance}) : std::nullopt;
 }
+
+// What fits that follow a record say together, each by its likelihood.
+template <class Model>
+class Average {
+public:
+  // \param cost twice the logarithm of one over the likelihood
+  void add(const Solved<Model> &one, double cost) {
+    const Model &model = one.fit.model();
+    VectorXd values(Model::shared);
+    for (Index j = 0; j < Model::contacts; ++j) {
+      values[Model::of_k(j) - Model::starts] = model.k[static_cast<std::size_t>(j)];
+      values[Model::of_c(j) - Model::starts] = model.c[static_cast<std::size_t>(j)];
+    }
+    values.tail(5) << model.k23, model.c23, model.force, model.omega, model.phase;
+    values_.push_back(values);
+    covariances_.push_back(one.covariance.topLeftCorner(Model::shared, Model::shared));
+    costs_.push_back(cost);
+  }
+  // Mean and covariance of the shared unknowns but those of sensors.
+  std::pair<VectorXd, MatrixXd> of(bool is_noise) const {
+    const double least = *std::min_element(costs_.begin(), costs_.end());
+    // Where more than noise is left, neighbouring samples are not independent.
+    const double alike = is_noise ? 1.0 : 10.0;
+    double all = 0.0;
+    VectorXd mean = VectorXd::Zero(Model::shared);
+    MatrixXd covariance = MatrixXd::Zero(Model::shared, Model::shared);
+    for (std::size_t i = 0; i < costs_.size(); ++i) {
+      const double weight = std::exp(-0.5 * (costs_[i] - least) / alike);
+      const VectorXd off = values_[i] - values_[0]; // so that large values lose no digits
+      all += weight;
+      mean += weight * off;
+      covariance += weight * (covariances_[i] + off * off.transpose());
+    }
+    mean /= all;
+    return {values_[0] + mean, covariance / all - mean * mean.transpose()};
+  }
+
+private:
+  std::vector<VectorXd> values_;
+  std::vector<MatrixXd> covariances_;
+  std::vector<double> costs_;
+};
 
 // Joins stretches for as long as one motion follows them as well as several did.
 template <class Model>
@@ -1265,7 +1330,7 @@ bool is_better(const Solved<Model> &one, const Solved<Model> &other) {
   constexpr double alike = 1.25;
   if (stretches < of_other && one.fit.level(0) < alike * other.fit.level(0)) return true;
   if (stretches > of_other && other.fit.level(0) < alike * one.fit.level(0)) return false;
-  return one.cost() < other.cost();
+  return one.fit.cost() < other.fit.cost();
 }
 
 // The largest distance of a time of the record from equal steps [s].
@@ -1320,19 +1385,22 @@ Model model_from(const Record &record) {
 
 double weight_of(double half_width) { return 3.84 / (half_width * half_width); }
 
-// What is known of the bond if the frame's motion is not measured.
-BondKnowledge bond_known(const Record &record, double m3, double g) {
-  BondKnowledge bond;
-  if (!record.frame_computed) return bond;
+// What is known besides the record: of the exciter, and of the bond if the frame's motion is not measured.
+Known known_of(const Record &record, double m3, double g, const MotionSetting &setting) {
   constexpr double exact = 1e-6, transient = 0.1; // what may still swing, of the static extension
-  bond.stiffness = record.bond->stiffness;
-  bond.damping = record.bond->damping;
-  bond.of_stiffness = weight_of(std::max(exact, record.bond->tolerance) * bond.stiffness);
-  bond.of_damping = weight_of(std::max(exact, record.bond->tolerance) * std::max(bond.damping, 1.0));
-  const double extension = transient * m3 * g / bond.stiffness;
-  bond.of_extension = weight_of(extension);
-  bond.of_rate = weight_of(extension * std::sqrt(bond.stiffness / m3));
-  return bond;
+  Known known;
+  known.phase = *record.phase;
+  if (setting.phase_within) known.of_phase = weight_of(std::max(*setting.phase_within, exact));
+  known.of_force = weight_of(std::max(setting.force_within, exact));
+  if (!record.frame_computed) return known;
+  known.stiffness = record.bond->stiffness;
+  known.damping = record.bond->damping;
+  known.of_stiffness = weight_of(std::max(exact, record.bond->tolerance) * known.stiffness);
+  known.of_damping = weight_of(std::max(exact, record.bond->tolerance) * std::max(known.damping, 1.0));
+  const double extension = transient * m3 * g / known.stiffness;
+  known.of_extension = weight_of(extension);
+  known.of_rate = weight_of(extension * std::sqrt(known.stiffness / m3));
+  return known;
 }
 
 bool complete(const Record &record) {
@@ -1340,46 +1408,115 @@ bool complete(const Record &record) {
          !record.a_frame.empty();
 }
 
+// The fit with another phase, which is held, and the other k and c with which unbroken contact then has the
+// same motion: k + i omega c = -F / X, of force and position at the exciter's frequency.
+template <class Model>
+std::optional<Solved<Model>> with_phase(const Solved<Model> &from, const Signals &signals, Known known,
+                                        double phase, bool pulls) {
+  constexpr double held = 1e-4; // rad
+  const Model &before = from.fit.model();
+  Model model = before;
+  model.pulls = pulls;
+  model.phase = phase;
+  std::array<double, Model::contacts> down{}; // by how much each contact rests lower
+  for (std::size_t j = 0; j < Model::contacts; ++j) {
+    double share = 1.0, of_weight = 1.0;
+    if constexpr (Model::tilts) {
+      const double other = model.place[1 - j], apart = model.place[j] - other;
+      share = (model.exciter - other) / apart;
+      of_weight = -other / apart;
+    }
+    std::complex<double> a;
+    for (std::size_t i = 0; i < signals.size(); ++i)
+      a += (signals.drum[i] + (Model::tilts ? model.place[j] * signals.turn_drum[i] : 0.0)) *
+           std::polar(2.0 / static_cast<double>(signals.size()),
+                      -model.omega * signals.time(i) - signals.wander_at(i));
+    const std::complex<double> force = std::complex<double>(0.0, -share * model.Fw()) *
+                                       (std::polar(1.0, phase) - std::polar(1.0, before.phase));
+    const std::complex<double> change = force * model.omega * model.omega / a;
+    constexpr double least = 0.2;
+    model.k[j] = std::max(least * before.k[j], before.k[j] + change.real());
+    model.c[j] = std::max(least * before.c[j], before.c[j] + change.imag() / model.omega);
+    down[j] = of_weight * (model.m2 + model.m3) * model.g * (1.0 / model.k[j] - 1.0 / before.k[j]);
+  }
+  std::vector<typename Model::Stretch> stretches = from.fit.stretches();
+  for (typename Model::Stretch &stretch : stretches) {
+    double middle = down[0];
+    if constexpr (Model::tilts) {
+      const double apart = model.place[1] - model.place[0];
+      middle = (model.place[1] * down[0] - model.place[0] * down[1]) / apart;
+      for (const Index tilt : {4, 6})
+        stretch.start[tilt] -= (down[1] - down[0]) / apart;
+    }
+    for (const Index height : {0, 2})
+      stretch.start[height] -= middle;
+  }
+  known.phase = phase;
+  known.of_phase = weight_of(held);
+  return solved(Fit<Model>(signals, model, std::move(stretches), known));
+}
+
 // Follows a record from these stretches.
 template <class Model>
 std::optional<MotionFit> follow_record(const Record &record, const Signals &signals, Model model,
-                                       std::vector<typename Model::Stretch> stretches,
-                                       const BondKnowledge &bond, const MotionSetting &setting) {
-  if (stretches.size() < 2 || !start_frame(signals, model, stretches, bond)) return std::nullopt;
-  const double phase_weight =
-      setting.phase_within ? 3.84 / std::pow(std::max(*setting.phase_within, 1e-7), 2) : 0.0;
+                                       std::vector<typename Model::Stretch> stretches, const Known &known) {
+  if (stretches.size() < 2 || !start_frame(signals, model, stretches, known)) return std::nullopt;
 
   // The condition is found with the first contacts of a long record.
   constexpr std::size_t pilot_contacts = 80, few = 3, many = 8;
   const std::vector<typename Model::Stretch> first(
       stretches.begin(),
       stretches.begin() + static_cast<std::ptrdiff_t>(std::min(pilot_contacts, stretches.size())));
-  std::optional<Solved<Model>> best;
-  double difference = std::numeric_limits<double>::infinity();
-  std::array<double, Model::contacts> of_k_apart{}, of_c_apart{}; // between the two conditions
+  std::optional<Solved<Model>> best, other;
   for (const bool pulls : {false, true}) {
     model.pulls = pulls;
-    std::optional<Solved<Model>> one =
-        solved(Fit<Model>(signals, model, first, phase_weight, model.phase, bond));
+    std::optional<Solved<Model>> one = solved(Fit<Model>(signals, model, first, known));
     if (!one) continue;
     join_stretches(*one, few);
-    if (best) {
-      difference = std::fabs(one->cost() - best->cost());
-      for (std::size_t j = 0; j < Model::contacts; ++j) {
-        of_k_apart[j] = one->fit.model().k[j] - best->fit.model().k[j];
-        of_c_apart[j] = one->fit.model().c[j] - best->fit.model().c[j];
-      }
-    }
-    if (!best || is_better(*one, *best)) best = std::move(one);
+    if (best && !is_better(*one, *best)) std::swap(one, best);
+    other = std::exchange(best, std::move(one));
   }
   if (!best) return std::nullopt;
-  if (first.size() < stretches.size()) {
-    const std::size_t together = std::max<std::size_t>(1, (first.size() + best->fit.stretches().size() - 1) /
-                                                              best->fit.stretches().size());
-    best = solved(
-        Fit<Model>(signals, best->fit.model(), joined(stretches, together), phase_weight, model.phase, bond));
-    if (!best) return std::nullopt;
-    join_stretches(*best, many);
+  double difference = other ? std::fabs(other->fit.cost() - best->fit.cost()) : // between A and B
+                          std::numeric_limits<double>::infinity();
+  constexpr double clear = 20.0, certain = 5.0 * clear;
+  if (!(difference < certain)) other.reset();
+  if (first.size() < stretches.size())
+    for (std::optional<Solved<Model>> *one : {&best, &other}) {
+      if (!*one) continue;
+      const std::size_t parts = (*one)->fit.stretches().size();
+      const std::size_t together = std::max<std::size_t>(1, (first.size() + parts - 1) / parts);
+      *one = solved(Fit<Model>(signals, (*one)->fit.model(), joined(stretches, together), known));
+      if (*one) join_stretches(**one, many);
+    }
+  if (!best) return std::nullopt;
+  // In contact that is hardly ever lost a phase fits as well as another, with other k and c, up to that at
+  // which contact would be lost. A fit that ends there takes its phase for well known.
+  Average<Model> average;
+  average.add(*best, best->fit.cost());
+  if (other) average.add(*other, other->fit.cost());
+  constexpr double hardly = 0.06;
+  if (known.of_phase > 0.0 && known.of_phase < weight_of(1e-4) && best->fit.least_lost() < hardly) {
+    const double within = std::sqrt(3.84 / known.of_phase);
+    constexpr int steps = 2;
+    constexpr double most = 1.05, no_tension = 1.0; // N
+    const double much_tension = 0.1 * (model.m2 + model.m3) * model.g;
+    std::array<double, 2> of_condition; // of B and A, the least cost
+    of_condition.fill(std::numeric_limits<double>::infinity());
+    for (int step = -steps; step <= steps; ++step) {
+      double tension = 0.0;
+      for (const bool pulls : {true, false}) { // without tension B moves as A does
+        if (!pulls && tension > much_tension) continue;
+        if (pulls || tension > no_tension)
+          other = with_phase(*best, signals, known, known.phase + most * within * step / steps, pulls);
+        if (!other) continue;
+        if (pulls) tension = other->fit.tension();
+        const double cost = other->fit.cost() + known.phase_off(other->fit.model());
+        average.add(*other, cost);
+        of_condition[pulls ? 1 : 0] = std::min(of_condition[pulls ? 1 : 0], cost);
+      }
+    }
+    difference = std::fabs(of_condition[0] - of_condition[1]);
   }
   if (best->fit.contradicts_phase()) return std::nullopt;
   MotionFit result;
@@ -1389,51 +1526,75 @@ std::optional<MotionFit> follow_record(const Record &record, const Signals &sign
   const double t = t_factor(std::max(1.0, freedom));
   // The time between samples is known as well as the times are written; k goes with its square.
   const double computed = 1e-9, of_time = 2.0 * irregularity(record) / (2.0 * signals.half_length) + computed;
-  const auto interval = [&](double mean, Index column) {
+  const bool is_noise = best->fit.is_noise();
+  const auto [values, covariance] = average.of(is_noise);
+  const auto interval = [&, values = values, covariance = covariance](Index column) {
     const bool of_soil = column < Model::of_k23;
     const Index at = column - Model::starts;
-    return MeanInterval{
-        mean, std::hypot(t * std::sqrt(best->covariance(at, at)), of_soil ? 2.0 * of_time * mean : 0.0)};
+    return MeanInterval{values[at], std::hypot(t * std::sqrt(covariance(at, at)),
+                                               of_soil ? 2.0 * of_time * values[at] : 0.0)};
   };
   const Model &found = best->fit.model();
-  const auto correlation = [&](Index one, const MeanInterval &of_one, Index other,
-                               const MeanInterval &of_other) {
-    return best->covariance(one - Model::starts, other - Model::starts) * t * t /
-           (of_one.half_width * of_other.half_width);
+  const auto correlation = [&, covariance = covariance](Index one, const MeanInterval &of_one, Index another,
+                                                        const MeanInterval &of_another) {
+    return covariance(one - Model::starts, another - Model::starts) * t * t /
+           (of_one.half_width * of_another.half_width);
   };
-  // If the record hardly tells A from B, the interval contains the result of both. In unbroken contact both
-  // follow the same motion, with different k, c and phase.
-  constexpr double clear = 20.0;
-  constexpr double certain = 5.0 * clear;
   for (Index j = 0; j < Model::contacts; ++j) {
-    const auto at = static_cast<std::size_t>(j);
-    ContactFit contact{interval(found.k[at], Model::of_k(j)), interval(found.c[at], Model::of_c(j))};
+    ContactFit contact{interval(Model::of_k(j)), interval(Model::of_c(j))};
     contact.correlation = correlation(Model::of_k(j), contact.k, Model::of_c(j), contact.c);
     result.contacts.push_back(contact);
   }
   if constexpr (Model::contacts == 2)
     result.k_together =
         correlation(Model::of_k(0), result.contacts[0].k, Model::of_k(1), result.contacts[1].k);
-  if (difference < certain)
-    for (std::size_t j = 0; j < result.contacts.size(); ++j) {
-      ContactFit &contact = result.contacts[j];
-      contact.k.half_width = std::hypot(contact.k.half_width, of_k_apart[j]);
-      contact.c.half_width = std::hypot(contact.c.half_width, of_c_apart[j]);
-    }
-  result.omega = interval(found.omega, Model::of_omega);
-  result.phase = interval(found.phase, Model::of_phase);
+  result.omega = interval(Model::of_omega);
+  result.phase = interval(Model::of_phase);
+  result.force = interval(Model::of_force);
   result.pulls = found.pulls;
   result.pull_is_clear = difference > clear;
   result.bond_stiffness = found.k23;
   result.bond_damping = found.c23;
   result.tension = best->fit.tension();
   result.residual = best->fit.level(0);
-  result.is_noise = best->fit.is_noise();
+  result.is_noise = is_noise;
+  result.cost = best->fit.cost();
   const typename Model::Stretch &longest =
       *std::max_element(best->fit.stretches().begin(), best->fit.stretches().end(),
                         [](const auto &a, const auto &b) { return a.end - a.first < b.end - b.first; });
   result.cycles = static_cast<double>(longest.end - longest.first) / signals.per_cycle;
   return result;
+}
+
+} // namespace
+
+namespace {
+
+// The same from these contacts or, if they are far off, from a softer or harder soil. If no motion follows
+// the record to its noise, the exciter's force may be another than is said.
+template <class Model>
+std::optional<MotionFit> search(const Record &record, const Signals &signals, const Model &model,
+                                const std::vector<typename Model::Stretch> &stretches, Known known,
+                                const MotionSetting &setting) {
+  if (!setting.search) return follow_record(record, signals, model, stretches, known);
+  std::optional<MotionFit> best;
+  for (const bool any_force : {false, true}) {
+    if (any_force) known.of_force = std::min(known.of_force, weight_of(machine_agreement));
+    for (const double factor : {1.0, 0.75, 1.35}) {
+      Model other = model;
+      for (double &k : other.k)
+        k *= factor;
+      std::vector<typename Model::Stretch> starts = stretches;
+      for (typename Model::Stretch &stretch : starts)
+        for (const Index height : {Index(0), Index(Model::tilts ? 4 : 0)})
+          stretch.start[height] =
+              stretches[static_cast<std::size_t>(&stretch - starts.data())].start[height] / factor;
+      std::optional<MotionFit> fit = follow_record(record, signals, other, std::move(starts), known);
+      if (fit && fit->is_noise) return fit;
+      if (fit && (!best || fit->cost < best->cost)) best = std::move(fit);
+    }
+  }
+  return best;
 }
 
 } // namespace
@@ -1462,8 +1623,7 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
       stretches.back().end = signals.size();
     }
   }
-  return follow_record(record, signals, model, std::move(stretches), bond_known(record, model.m3, model.g),
-                       setting);
+  return search(record, signals, model, stretches, known_of(record, model.m3, model.g, setting), setting);
 }
 
 std::optional<MotionFit> fit_motion(const Record &record, const std::array<HalfStart, 2> &halves,
@@ -1497,7 +1657,7 @@ std::optional<MotionFit> fit_motion(const Record &record, const std::array<HalfS
   model.dashpot = places(&AxleLink::c);
   signals.turn_drum = drum_tilt(record);
   signals.turn_frame = frame_tilt(record);
-  BondKnowledge bond = bond_known(record, model.m3, model.g);
+  Known known = known_of(record, model.m3, model.g, setting);
   // How the frame is tilted against the drum is computed: it may be off by as much as it moves.
   double squares = 0.0;
   for (std::size_t i = 0; i < record.size(); ++i)
@@ -1505,9 +1665,9 @@ std::optional<MotionFit> fit_motion(const Record &record, const std::array<HalfS
   const double omega2 = model.omega * model.omega;
   const double turn = std::sqrt(squares / static_cast<double>(record.size())) / omega2 +
                       std::fabs(model.spring.first) / model.spring.second * model.me_re / model.m2;
-  bond.of_turn = weight_of(turn);
-  bond.of_turning = weight_of(turn * model.omega);
-  return follow_record(record, signals, model, first_stretches(signals, halves, model), bond, setting);
+  known.of_turn = weight_of(turn);
+  known.of_turning = weight_of(turn * model.omega);
+  return search(record, signals, model, first_stretches(signals, halves, model), known, setting);
 }
 
 } // namespace drumlin::post

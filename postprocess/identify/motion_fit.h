@@ -31,6 +31,7 @@ struct MotionFit {
   double k_together = 0.0;          ///< correlation of the errors of k of both halves [-]
   MeanInterval omega{};             ///< [rad/s]
   MeanInterval phase{};             ///< of the exciter at time 0 [rad]
+  MeanInterval force{};             ///< of the exciter over that which is said [-]
   bool pulls = false;               ///< condition A fits better
   double tension = 0.0;             ///< the largest one, or that of condition A [N]
   bool pull_is_clear = false;       ///< the other condition fits worse by more than noise explains
@@ -39,6 +40,7 @@ struct MotionFit {
   double residual = 0.0;            ///< RMS of the drum's acceleration [m/s2]
   /// What is left is noise; if not, the soil, the frame or the machine is another than in the equations.
   bool is_noise = false;
+  double cost = 0.0;   ///< twice the logarithm of one over the likelihood
   double cycles = 0.0; ///< of the longest stretch that one motion follows
 };
 
@@ -46,6 +48,11 @@ struct MotionFit {
 struct MotionSetting {
   /// Half the width within which the record's phase at time 0 is known [rad]; not given: the record tells it.
   std::optional<double> phase_within;
+  /// Half the width within which the exciter's force over that which is said is known [-].
+  double force_within = 0.0;
+  /// Also from a softer and a harder soil, and with another force, if nothing follows the record to its
+  /// noise.
+  bool search = true;
 };
 
 /// Follows a measured record of accelerations of drum and frame from what single contacts say; nothing if the

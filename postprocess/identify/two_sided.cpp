@@ -49,49 +49,6 @@ std::array<HalfStart, 2> single_contacts(const Record &record, const RecordSetti
   return found;
 }
 
-/// What the whole motion says, from the contacts or, if they are far off, from a softer or harder soil.
-std::optional<MotionFit> follow_both(const Record &record, const std::array<HalfStart, 2> &contacts,
-                                     const MotionSetting &setting) {
-  std::optional<MotionFit> best;
-  for (const double factor : {1.0, 0.75, 1.35}) {
-    std::array<HalfStart, 2> start = contacts;
-    for (HalfStart &half : start) {
-      half.contact.law.k.mean *= factor;
-      for (double &x : half.contact.x)
-        x /= factor;
-    }
-    std::optional<MotionFit> fit = fit_motion(record, start, setting);
-    if (fit && fit->is_noise) return fit;
-    if (fit && (!best || fit->residual < best->residual)) best = std::move(fit);
-  }
-  return best;
-}
-
-/// In unbroken contact a phase fits as well as another, up to that at which contact would just be lost. A fit
-/// that ends there takes its phase for well known. Where the ends of the interval in which the phase is known
-/// fit as well, the intervals contain what they give, too.
-void widen_by_phase(const Record &record, const std::array<HalfStart, 2> &contacts, double phase_within,
-                    MotionFit &motion) {
-  if (!(motion.phase.half_width < 0.5 * phase_within)) return;
-  const double as_good = (1.0 + 20.0 / static_cast<double>(record.size())) * motion.residual;
-  const std::vector<ContactFit> found = motion.contacts;
-  for (const double side : {-1.0, 1.0}) {
-    constexpr double held = 1e-4; // rad
-    Record other = record;
-    other.phase = *record.phase + side * phase_within;
-    const std::optional<MotionFit> fit = fit_motion(other, contacts, {held});
-    if (!fit || fit->residual > as_good) continue;
-    motion.phase.half_width =
-        std::max(motion.phase.half_width, std::fabs(fit->phase.mean - motion.phase.mean));
-    for (std::size_t half = 0; half < found.size(); ++half)
-      for (const auto value : {&ContactFit::k, &ContactFit::c}) {
-        MeanInterval &wider = motion.contacts[half].*value;
-        wider.half_width = std::max(wider.half_width,
-                                    std::fabs((fit->contacts[half].*value).mean - (found[half].*value).mean));
-      }
-  }
-}
-
 double rms(const std::vector<double> &values) {
   double squares = 0.0;
   for (const double value : values)
@@ -138,11 +95,11 @@ TwoSidedRecord identify_two_sided(const Record &record, const RecordSetting &set
       std::max({setting.phase_within, record.phase_within, 1.5 * record.phase_half_width});
   if (progress) progress("the contacts of each half");
   const std::array<HalfStart, 2> contacts = single_contacts(record, setting, whole, phase_within);
-  MotionSetting of_phase;
-  if (record.phase_half_width == 0.0) of_phase.phase_within = phase_within;
+  MotionSetting known;
+  if (record.phase_half_width == 0.0) known.phase_within = phase_within;
+  known.force_within = record.tolerances.me_re;
   if (progress) progress("the motion from contact to contact");
-  std::optional<MotionFit> motion = follow_both(record, contacts, of_phase);
-  if (motion && of_phase.phase_within) widen_by_phase(record, contacts, *of_phase.phase_within, *motion);
+  const std::optional<MotionFit> motion = fit_motion(record, contacts, known);
   constexpr double close = 0.05, as_noise = 1e-4; // of the drum's acceleration
   const double left = motion ? motion->residual / rms(record.a_left) : 1.0;
   if (!motion || (!motion->is_noise && left > close))

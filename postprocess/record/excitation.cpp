@@ -2,6 +2,7 @@
 
 #include "chain/contact_phases.h"
 #include "chain/linear_algebra.h"
+#include "record/both_ends.h"
 #include "support/csv.h"
 #include "support/range.h"
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -164,16 +166,15 @@ struct Forces {
   double angle(double omega, std::size_t i) const { return omega * time[i] + wander[i]; }
 };
 
-/// The exciter's force Fw (a sin(omega t) + b cos(omega t)) and an offset [N].
+/// The exciter's force Fw (a sin(omega t) + b cos(omega t)) [N].
 struct Exciter {
-  double omega, a, b, offset = 0.0;
+  double omega, a, b;
 };
 
 double force_at(const Forces &forces, const Exciter &exciter, std::size_t i) {
   const double angle = forces.angle(exciter.omega, i);
   return forces.without[i] +
-         forces.Fw * forces.share[i] * (exciter.a * std::sin(angle) + exciter.b * std::cos(angle)) -
-         exciter.offset;
+         forces.Fw * forces.share[i] * (exciter.a * std::sin(angle) + exciter.b * std::cos(angle));
 }
 
 /// Samples from `first` to before `end`.
@@ -232,21 +233,21 @@ Exciter best_phase(const Forces &forces, double omega, double ratio, double band
   return best;
 }
 
-/// One step of least squares over flights: unknown are a, b, offset and omega. Fills the fit but for its
+/// One step of least squares over flights: unknown are a, b and omega. Fills the fit but for its
 /// share; the root mean square of the force that is left [N] comes back.
 double fit_flights(const Forces &forces, const std::vector<Flight> &flights, Exciter &exciter,
                    FlightFit &fit) {
-  constexpr Eigen::Index unknowns = 4;
-  Eigen::Matrix4d square = Eigen::Matrix4d::Zero();
-  std::vector<Eigen::Vector4d> scores;
+  constexpr Eigen::Index unknowns = 3;
+  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+  std::vector<Eigen::Vector3d> scores;
   double left = 0.0;
   const double unit = std::max(std::fabs(forces.time.back()), std::fabs(forces.time.front())); // of 1 / omega
   for (const Flight &flight : flights) {
-    scores.emplace_back(Eigen::Vector4d::Zero());
+    scores.emplace_back(Eigen::Vector3d::Zero());
     for (std::size_t i = flight.first; i < flight.end; ++i) {
       const double angle = forces.angle(exciter.omega, i), sine = forces.share[i] * std::sin(angle),
                    cosine = forces.share[i] * std::cos(angle);
-      const Eigen::Vector4d row(sine, cosine, -1.0,
+      const Eigen::Vector3d row(sine, cosine,
                                 forces.time[i] / unit * (exciter.a * cosine - exciter.b * sine));
       const double off = force_at(forces, exciter, i) / forces.Fw;
       square += row * row.transpose();
@@ -254,32 +255,77 @@ double fit_flights(const Forces &forces, const std::vector<Flight> &flights, Exc
       left += off * off;
     }
   }
-  const Eigen::Matrix4d inverse = SymmetricSystem(square).inverse();
-  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-  for (const Eigen::Vector4d &score : scores)
+  const Eigen::Matrix3d inverse = SymmetricSystem(square).inverse();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d &score : scores)
     sum += score;
-  const Eigen::Vector4d change = -inverse * sum;
+  const Eigen::Vector3d change = -inverse * sum;
   exciter.a += change[0];
   exciter.b += change[1];
-  exciter.offset += change[2] * forces.Fw;
-  exciter.omega += change[3] / unit;
+  exciter.omega += change[2] / unit;
   const auto count = static_cast<double>(scores.size());
   const double freedom = std::max(1.0, count - static_cast<double>(unknowns));
-  const auto half_width = [&](const Eigen::Vector4d &direction) {
-    const Eigen::Vector4d of_score = inverse * direction;
+  const auto half_width = [&](const Eigen::Vector3d &direction) {
+    const Eigen::Vector3d of_score = inverse * direction;
     double squares = 0.0;
-    for (const Eigen::Vector4d &score : scores)
+    for (const Eigen::Vector3d &score : scores)
       squares += std::pow(of_score.dot(score), 2);
     return t_factor(freedom) * std::sqrt(squares * count / freedom);
   };
   const double size = std::hypot(exciter.a, exciter.b);
   fit.flights = flights.size();
-  fit.ratio = {size, half_width({exciter.a / size, exciter.b / size, 0.0, 0.0})};
+  fit.ratio = {size, half_width({exciter.a / size, exciter.b / size, 0.0})};
   fit.phase = {std::atan2(exciter.b, exciter.a),
-               half_width({-exciter.b / (size * size), exciter.a / (size * size), 0.0, 0.0})};
-  fit.offset = {exciter.offset, forces.Fw * half_width(Eigen::Vector4d::Unit(2))};
-  fit.omega = {exciter.omega, half_width(Eigen::Vector4d::Unit(3)) / unit};
+               half_width({-exciter.b / (size * size), exciter.a / (size * size), 0.0})};
+  fit.omega = {exciter.omega, half_width(Eigen::Vector3d::UnitZ()) / unit};
   return forces.Fw * std::sqrt(left / static_cast<double>(samples_of(flights)));
+}
+
+/// Makes the forces of samples infinite in which a moment acts: then one end of the drum is not in flight.
+/// Whether the record tells it.
+bool forbid_moments(const Record &record, Forces &forces) {
+  if (!record.ends || !(record.ends->sensor > 0.0) || record.a_frame.empty()) return false;
+  const TwoEnds &ends = *record.ends;
+  const std::vector<double> drum = drum_tilt(record), frame = frame_tilt(record);
+  std::vector<double> moment(record.size());
+  for (std::size_t i = 0; i < moment.size(); ++i)
+    moment[i] = ends.drum_inertia * drum[i] + ends.frame_inertia * frame[i];
+  constexpr double wide = 0.03; // of Fw at a contact
+  const double arm = std::fabs(ends.contacts[0].y);
+  const double most =
+      (wide * arm + std::fabs(ends.exciter)) * forces.Fw + 3.0 * noise_level(moment); // the exciter's, too
+  for (std::size_t i = 0; i < moment.size(); ++i)
+    if (std::fabs(moment[i]) > most) forces.without[i] = std::numeric_limits<double>::infinity();
+  return true;
+}
+
+/// Whether the force is flat in flights: where contact is not lost, a wrong phase of the exciter leaves a
+/// force that touches zero in a bow, of as much as the weight in half a cycle.
+/// \param turn the exciter's angle from sample to sample [rad]
+bool are_flat(const std::vector<Flight> &flights, const std::vector<double> &force, double weight,
+              double turn) {
+  std::vector<std::array<double, 2>> parts; // of each flight: bow times that of the weight, its square
+  std::array<double, 2> sums{};
+  for (const Flight &flight : flights) {
+    const auto size = static_cast<double>(flight.size());
+    const double of_weight = 0.5 * weight * std::pow(0.5 * size * turn, 2);
+    std::array<double, 2> part{};
+    for (std::size_t i = flight.first; i < flight.end; ++i) {
+      const double u = (2.0 * static_cast<double>(i - flight.first) + 1.0) / size - 1.0;
+      const double bow = of_weight * (u * u - (1.0 - 1.0 / (size * size)) / 3.0); // has no mean
+      part[0] += bow * force[i];
+      part[1] += bow * bow;
+    }
+    parts.push_back(part);
+    sums[0] += part[0];
+    sums[1] += part[1];
+  }
+  const double bow = sums[0] / sums[1];
+  double squares = 0.0;
+  for (const auto &[product, square] : parts)
+    squares += std::pow(product - bow * square, 2);
+  constexpr double most = 0.5, errors = 2.0;
+  return bow + errors * std::sqrt(squares) / sums[1] < most;
 }
 
 } // namespace
@@ -302,9 +348,11 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
   constexpr double shortest = 0.05, longest = 3.0; // cycles
   const auto least = std::max<std::size_t>(5, static_cast<std::size_t>(shortest * per_cycle));
   const double noise = noise_level(forces.without);
+  if (record.two_sided() && !forbid_moments(record, forces)) return std::nullopt;
   constexpr double narrow = 0.001;                        // of Fw
   const double wide = record.logger_filter ? 0.06 : 0.03; // a filter makes landings swing
-  double width = wide * forces.Fw + 3.0 * noise;
+  const double widest = wide * forces.Fw + 4.0 * noise;
+  double width = widest;
   Exciter exciter = best_phase(forces, *record.omega, ratio, width, least);
   FlightFit fit;
   std::vector<double> force = all_forces(forces, exciter);
@@ -323,10 +371,10 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
       ++flight.first;
       --flight.end;
     }
-    const double left = fit_flights(forces, flights, exciter, fit);
+    fit.left = fit_flights(forces, flights, exciter, fit);
     fit.share = static_cast<double>(samples_of(flights)) / static_cast<double>(record.size());
     force = all_forces(forces, exciter);
-    width = std::max(narrow * forces.Fw, 4.0 * left);
+    width = std::clamp(4.0 * fit.left, narrow * forces.Fw, widest);
   }
   // One flight in a cycle at most, after which the soil presses.
   const std::vector<Flight> others = runs_of(force, 2, [width](double f) { return std::fabs(f) > width; });
@@ -338,9 +386,9 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
     ++followed;
     lands += force[next->first] > 0.0 ? 1 : 0;
   }
-  constexpr double most_often = 1.1, most_of_them = 0.9, most_share = 0.93, most_off = 0.6, most_offset = 0.3;
-  if (fit.share > most_share || std::fabs(fit.ratio.mean - 1.0) > most_off ||
-      std::fabs(fit.offset.mean) > most_offset * weight ||
+  constexpr double most_often = 1.1, most_of_them = 0.9, most_share = 0.93, most_off = 0.6;
+  if (!are_flat(flights, force, weight, exciter.omega * record.interval) || fit.share > most_share ||
+      std::fabs(fit.ratio.mean - 1.0) > most_off ||
       static_cast<double>(flights.size()) > most_often * record.cycles() + 1.0 ||
       static_cast<double>(lands) < most_of_them * static_cast<double>(followed))
     return std::nullopt;
@@ -352,9 +400,14 @@ namespace {
 
 constexpr double degree = pi / 180.0;
 
+/// The mean of the first `count` values, which fade in and out (Hann): neither a period of several cycles nor
+/// the ends of the window change it much.
 double mean_of(const std::vector<double> &values, std::size_t count) {
-  return std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count), 0.0) /
-         static_cast<double>(count);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    sum +=
+        values[i] * (1.0 - std::cos(2.0 * pi * (static_cast<double>(i) + 0.5) / static_cast<double>(count)));
+  return sum / static_cast<double>(count);
 }
 
 void shift(std::vector<double> &values, double by) {
@@ -439,9 +492,6 @@ void remove_offset(Record &record, std::vector<double> Record::*values, const ch
                                      of_gravity ? ": the sensor shows gravity" : ""));
 }
 
-/// Share by which data of the machine may be off.
-constexpr double machine = 0.1;
-
 /// Times at which a signal rises through the middle of its range, between samples; it has to fall below a
 /// quarter of the range before the next one [s].
 std::vector<double> rises_of(const Record &record) {
@@ -461,26 +511,72 @@ std::vector<double> rises_of(const Record &record) {
   return times;
 }
 
-/// Takes frequency and phase from pulses, and how the angle wanders about a constant frequency.
-void take_pulses(Record &record, const RecordOptions &options) {
-  const std::vector<double> rises = rises_of(record);
-  const double period = record.period();
-  std::vector<double> times, angles;
-  std::size_t missing = 0, doubled = 0;
-  double turns = 0.0;
-  for (const double time : rises) {
-    if (!times.empty()) {
-      const double passed = std::round((time - times.back()) / period);
-      if (passed < 1.0) {
-        ++doubled;
-        continue;
-      }
-      missing += static_cast<std::size_t>(passed) - 1;
-      turns += passed;
-    }
-    times.push_back(time);
-    angles.push_back(2.0 * pi * turns + options.pulse_angle);
+/// The angle of the drum's motion at the record's frequency, without a constant, at some times, from four
+/// cycles around each [rad].
+std::vector<double> drum_angles(const Record &record, const std::vector<double> &times) {
+  const std::vector<double> &signal = drum_signal(record);
+  const double half = 2.0 * record.period();
+  std::vector<double> angles; // minus omega t, one a cycle
+  double middle = record.time.front() + half;
+  for (; middle + half <= record.time.back() + record.interval || angles.size() < 2;
+       middle += record.period()) {
+    const auto first = static_cast<std::size_t>((middle - half - record.time.front()) / record.interval);
+    std::complex<double> sum;
+    for (std::size_t i = first; i < record.size() && record.time[i] < middle + half; ++i)
+      sum += signal[i] * std::polar(1.0 + std::cos(pi * (record.time[i] - middle) / half),
+                                    -*record.omega * record.time[i]);
+    const double before = angles.empty() ? 0.0 : angles.back();
+    angles.push_back(before + std::remainder(std::arg(sum) - before, 2.0 * pi));
   }
+  std::vector<double> result;
+  for (const double time : times) { // the first and last two cycles as those beside them
+    const double at = (time - record.time.front() - half) / record.period();
+    const auto before =
+        static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(angles.size()) - 1.5));
+    const double share = at - static_cast<double>(before);
+    result.push_back(*record.omega * time + (1.0 - share) * angles[before] + share * angles[before + 1]);
+  }
+  return result;
+}
+
+/// Takes frequency and phase from pulses, and how the angle wanders about a constant frequency. Pulses stand
+/// at one angle of the drum's motion, to as much as most of them scatter; others are none.
+void take_pulses(Record &record, const RecordOptions &options) {
+  const std::vector<double> rises = rises_of(record), of_drum = drum_angles(record, rises);
+  const double period = record.period();
+  constexpr double close = 20.0 * degree, of_normal = 1.4826;
+  double center = 0.0;
+  std::vector<double> most;
+  for (const double angle : of_drum) {
+    std::vector<double> near;
+    for (const double other : of_drum)
+      if (const double off = std::remainder(other - angle, 2.0 * pi); std::fabs(off) < close)
+        near.push_back(off);
+    if (near.size() <= most.size()) continue;
+    const double middle = median(near);
+    center = angle + middle;
+    for (double &off : near)
+      off = std::fabs(off - middle);
+    most = near;
+  }
+  const double reach = most.empty() ? 0.0 : std::max(3.0 * degree, 5.0 * of_normal * median(most));
+  std::vector<double> times, angles;
+  std::size_t doubled = 0;
+  double turns = -1.0;
+  for (std::size_t i = 0; i < rises.size(); ++i) {
+    const double turn = std::round((of_drum[i] - center) / (2.0 * pi));
+    if (std::fabs(of_drum[i] - center - 2.0 * pi * turn) > reach || (!times.empty() && turn <= turns)) {
+      ++doubled;
+      continue;
+    }
+    turns = turn;
+    times.push_back(rises[i]);
+    angles.push_back(2.0 * pi * turn + options.pulse_angle);
+  }
+  const std::size_t missing =
+      times.empty() ? 0
+                    : static_cast<std::size_t>(std::lround((angles.back() - angles.front()) / (2.0 * pi))) +
+                          1 - times.size();
   constexpr double most_missing = 0.5;
   const double expected = std::floor(record.cycles());
   if (static_cast<double>(times.size()) < std::max(4.0, most_missing * expected) ||
@@ -544,32 +640,110 @@ void take_pulses(Record &record, const RecordOptions &options) {
              : std::string()));
 }
 
-/// Whether the drum flies if the sign of its acceleration, or of both accelerations, is turned.
-const char *turned_sign(Record record) {
-  const auto turn = [](std::vector<double> &values) {
-    for (double &value : values)
-      value = -value;
+void turn(std::vector<double> &values) {
+  for (double &value : values)
+    value = -value;
+}
+
+[[noreturn]] void refuse_sign(const Record &record, const std::string &columns, const char *why) {
+  csv_fault(record.file, 0, {},
+            refusal("the sign of " + columns, "as given",
+                    fmt::format("the other one, with which {}: a '-' before the unit of --column", why)));
+}
+
+/// Refuses accelerations whose sign is turned: of one end of the drum, with which the frame does not move as
+/// the bond makes it; of the drum, whose exciter would take energy from it; of the frame, whose bond would
+/// have a negative stiffness.
+void check_signs(const Record &record) {
+  const auto wave = [&record](const std::vector<double> &values) { // at the exciter's frequency
+    std::complex<double> sum;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      sum += values[i] *
+             std::polar(1.0 - std::cos(2.0 * pi * (static_cast<double>(i) + 0.5) /
+                                       static_cast<double>(values.size())),
+                        -*record.omega * record.time[i] - (record.wander.empty() ? 0.0 : record.wander[i]));
+    return sum / static_cast<double>(values.size());
   };
+  if (record.a_drum.empty() || record.low_pass > 0.0) return;
+  const bool has_frame = !record.a_frame.empty() && !record.frame_computed && record.m3;
+  std::complex<double> drum = wave(record.a_drum), frame = has_frame ? wave(record.a_frame) : 0.0;
+  // Stiffness and damping of a bond through which the drum moves the frame so: m3 omega^2 r / (r - 1), where
+  // r is the frame's motion over that of the drum.
+  const auto bond = [&](const std::complex<double> &of_drum) {
+    return *record.m3 * *record.omega * *record.omega * frame / (frame - of_drum);
+  };
+  constexpr double seen = 5.0, clear = 0.14, different = 0.7, same = 0.4; // errors; sines; logarithms
+  const double error =
+      has_frame ? noise_level(record.a_frame) / std::sqrt(static_cast<double>(record.size())) : 0.0;
+  const bool frame_moves =
+      has_frame && std::abs(frame) > seen * error && std::abs(frame) > 0.01 * std::abs(drum);
+  bool one_end = false;
+  if (record.two_sided() && frame_moves && record.bond) {
+    const std::complex<double> known(record.bond->stiffness, *record.omega * record.bond->damping);
+    const auto off = [&](const std::complex<double> &of_drum) {
+      return std::abs(std::log(bond(of_drum) / known));
+    };
+    const std::complex<double> apart = 0.5 * (wave(record.a_right) - wave(record.a_left));
+    one_end = off(drum) > different && off(-drum) > different && std::min(off(apart), off(-apart)) < same;
+    if (one_end) drum = apart;
+  }
+  const auto frame_turned = [&](const std::complex<double> &of_drum) {
+    return frame_moves && bond(of_drum).real() < 0.0 && bond(-of_drum).real() > 0.0;
+  };
+  double side = frame_turned(drum) && one_end ? -1.0 : 1.0; // of the drum
+  if (record.phase) {
+    const double taken = (drum * std::polar(1.0, -*record.phase)).real() / std::abs(drum);
+    if (std::fabs(taken) > clear) side = taken > 0.0 ? -1.0 : 1.0;
+    if (side < 0.0 && !one_end && !frame_turned(drum)) { // flights tell whether it is the phase
+      Record other = record;
+      turn(other.a_drum);
+      turn(other.a_frame);
+      const std::optional<FlightFit> given = flights_of(record), turned = flights_of(other);
+      if (given && (!turned || given->left < turned->left)) side = 1.0;
+    }
+  } else if (frame_turned(drum) && !one_end) { // flights tell which of both it is
+    Record of_frame = record, of_drum = record;
+    turn(of_frame.a_frame);
+    turn(of_drum.a_drum);
+    const std::optional<FlightFit> with_frame = flights_of(of_frame), with_drum = flights_of(of_drum);
+    if (!with_frame && !with_drum)
+      refuse_sign(record, "a_frame or a_drum", "the bond moves the frame with the drum");
+    if (!with_frame || (with_drum && with_drum->left < with_frame->left)) side = -1.0;
+  }
+  std::string columns;
+  if (one_end)
+    columns = side > 0.0 ? "a_left" : "a_right";
+  else if (side < 0.0)
+    columns = record.two_sided() ? "a_left and a_right" : "a_drum";
+  if (frame_turned(side * drum)) columns += (columns.empty() ? "" : " and ") + std::string("a_frame");
+  if (!columns.empty())
+    refuse_sign(record, columns,
+                side < 0.0 && !one_end
+                    ? "the exciter drives the drum (unless the phase is off by half a turn)"
+                    : "the bond moves the frame with the drum");
+}
+
+/// Refuses accelerations of drum and frame with which the drum does not fly, if it does with both turned.
+void check_turned(Record record) {
   turn(record.a_drum);
-  if (record.frame_computed) turn(record.a_frame);
-  if (flights_of(record)) return "a_drum";
-  if (record.frame_computed) return nullptr;
   turn(record.a_frame);
-  return !record.a_frame.empty() && flights_of(record) ? "a_drum and a_frame" : nullptr;
+  if (flights_of(record))
+    refuse_sign(record, record.frame_computed || record.a_frame.empty() ? "a_drum" : "a_drum and a_frame",
+                "the drum flies");
 }
 
 std::string force_of_flights(double force) {
   return fmt::format(
       "within {:g} % of {:.4g} N, with which no force would act on the drum while it flies; to be "
       "checked: eccentric moment or force, masses of drum and frame, signs and units",
-      100.0 * machine, force);
+      100.0 * machine_agreement, force);
 }
 
 /// Refuses a force of the exciter with which the drum does not fly, if it does with another one.
 void check_force(const Record &record) {
   for (const double ratio : {0.9, 1.1, 0.8, 1.2, 0.7, 1.35, 0.6, 1.5}) {
     const std::optional<FlightFit> fit = flights_of(record, ratio);
-    if (!fit || std::fabs(fit->ratio.mean - 1.0) < machine) continue;
+    if (!fit || std::fabs(fit->ratio.mean - 1.0) < machine_agreement) continue;
     csv_fault(record.file, 0, {},
               refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
                       force_of_flights(fit->ratio.mean * *record.Fw)));
@@ -656,7 +830,7 @@ void undo_logger_filter(Record &record, const LoggerFilter &filter) {
 void take_flights(Record &record, const RecordOptions &options) {
   std::optional<FlightFit> fit = flights_of(record);
   // Behind a filter that smooths too much the motion from contact to contact has to tell the phase.
-  if (record.logger_filter && (!fit || std::fabs(fit->ratio.mean - 1.0) > machine)) {
+  if (record.logger_filter && (!fit || std::fabs(fit->ratio.mean - 1.0) > machine_agreement)) {
     check_drift(record);
     return;
   }
@@ -666,23 +840,18 @@ void take_flights(Record &record, const RecordOptions &options) {
     fit = flights_of(record);
   }
   if (!fit) {
-    if (const char *columns = turned_sign(record))
-      csv_fault(record.file, 0, {},
-                refusal("the sign of " + std::string(columns), "as given",
-                        "the other one, with which the drum flies: a '-' before the unit of --column"));
+    check_turned(record);
     check_force(record);
     check_drift(record);
     return;
   }
   const std::optional<double> said = record.phase;
   record.notes.push_back(fmt::format(
-      "{} flights, {:.1f} % of the time, give {:.8g} +- {:.2g} Hz, a phase of {:.3f} +- {:.2g} degrees, an "
-      "exciter's force {:.4f} +- {:.2g} times that given and an offset of {:.0f} +- {:.2g} N, which is "
-      "removed",
+      "{} flights, {:.1f} % of the time, give {:.8g} +- {:.2g} Hz, a phase of {:.3f} +- {:.2g} degrees and "
+      "an exciter's force {:.4f} +- {:.2g} times that given",
       fit->flights, 100.0 * fit->share, fit->omega.mean / (2.0 * pi), fit->omega.half_width / (2.0 * pi),
-      fit->phase.mean / degree, fit->phase.half_width / degree, fit->ratio.mean, fit->ratio.half_width,
-      fit->offset.mean, fit->offset.half_width));
-  if (std::fabs(fit->ratio.mean - 1.0) > machine + fit->ratio.half_width)
+      fit->phase.mean / degree, fit->phase.half_width / degree, fit->ratio.mean, fit->ratio.half_width));
+  if (std::fabs(fit->ratio.mean - 1.0) > machine_agreement + fit->ratio.half_width)
     csv_fault(record.file, 0, {},
               refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
                       force_of_flights(fit->ratio.mean * *record.Fw)));
@@ -695,14 +864,6 @@ void take_flights(Record &record, const RecordOptions &options) {
                         fmt::format("{:.4g} +- {:.2g} degrees, as the flights of the drum tell, or no phase",
                                     fit->phase.mean / degree, fit->phase.half_width / degree)));
   }
-  // Flights know the force better than a data sheet does.
-  if (std::fabs(fit->ratio.mean - 1.0) > 2.0 * fit->ratio.half_width && !record.logger_filter &&
-      !(record.frame_computed && record.bond->tolerance > 0.0)) {
-    record.said_Fw = record.Fw;
-    record.Fw = fit->ratio.mean * *record.Fw;
-  }
-  const double of_offset = -fit->offset.mean / *record.m2;
-  shift(record.a_drum, of_offset);
   record.omega = fit->omega.mean;
   record.phase = fit->phase.mean;
   record.phase_half_width = fit->phase.half_width;
@@ -794,6 +955,7 @@ void settle_excitation(Record &record, const RecordOptions &options) {
   remove_offset(record, &Record::a_right, "a_right");
   compute_frame(record);
   if (options.me_re) record.Fw = *options.me_re * *record.omega * *record.omega;
+  check_signs(record);
   take_flights(record, options);
   compute_excitation(record);
 }

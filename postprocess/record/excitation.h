@@ -16,6 +16,9 @@ namespace drumlin::post {
 /// Share of the nominal frequency within which frequency_of() looks for the true one, to either side.
 constexpr double frequency_range = 0.06;
 
+/// Share by which data of a machine may be off that are said to be exact.
+constexpr double machine_agreement = 0.1;
+
 /// Frequency of a signal [rad/s] with its 95 % confidence interval: its multiples from one half to six (below
 /// half the sampling rate) are fitted to the whole signal by least squares, together with a constant.
 /// Residuals of one cycle may be correlated in any way, those of different cycles count as independent.
@@ -25,22 +28,24 @@ constexpr double frequency_range = 0.06;
 std::optional<MeanInterval> frequency_of(const std::vector<double> &signal, double interval, double nominal);
 
 /// What the flights of the drum tell. In flight no contact force acts, so that
-///     m2 (a2 + g) + m3 (a3 + g) + ratio Fw sin(omega t + phase) = offset,
-/// where an offset is that of a sensor. All four unknowns are fitted to all flights, with 95 % confidence
-/// intervals for errors that are independent from flight to flight.
+///     m2 (a2 + g) + m3 (a3 + g) + ratio Fw sin(omega t + phase) = 0.
+/// The three unknowns are fitted to all flights, with 95 % confidence intervals for errors that are
+/// independent from flight to flight. Sensors have no offset here: over many cycles the soil carries the
+/// weight, so that the mean of each acceleration, which is removed, is all that an offset can be.
 struct FlightFit {
   MeanInterval omega{}; ///< [rad/s]
   MeanInterval phase{}; ///< at time 0, from -pi to pi; its interval is that in the middle of the record [rad]
   MeanInterval ratio{}; ///< amplitude of the exciter's force over Fw [-]
-  MeanInterval offset{};   ///< [N]
-  double share = 0.0;      ///< of the samples that are in flight [-]
+  double share = 0.0;   ///< of the samples that are in flight [-]
   std::size_t flights = 0; ///< number
+  double left = 0.0;       ///< RMS of the force in flight [N]
 };
 
 /// Finds the flights, of `ratio` times the given force of the exciter to some 5 %, of a record whose omega,
 /// Fw, m2 and m3 are known, omega to a tenth of a cycle over the record. Of all phases of the exciter that
-/// one counts with which the most samples are in parts without force. Nothing if flights are too few to tell,
-/// or if no contacts with a force above zero stand between them.
+/// one counts with which the most samples are in parts without force. Where both ends of the drum were
+/// measured, these are parts in which no moment acts either. Nothing if flights are too few to tell, or if no
+/// contacts with a force above zero stand between them.
 std::optional<FlightFit> flights_of(const Record &record, double ratio = 1.0);
 
 /// Computes the acceleration of the frame of a measured record that has none from that of the drum, through

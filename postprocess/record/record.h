@@ -78,7 +78,6 @@ struct Record : ChainHistory {
   double low_pass = 0.0;         ///< cut-off of the filter that all signals passed [Hz]; 0: none
   bool excitation_read = false;  ///< F_excitation is from the file
   std::optional<double> Fw;      ///< amplitude of the excitation force [N]
-  std::optional<double> said_Fw; ///< what was given for it, if flights of the drum replaced it [N]
   std::optional<double> m2;      ///< mass of the drum [kg]
   std::optional<double> m3;      ///< mass of the frame [kg]
   std::optional<double> g;       ///< gravity [m/s2]
