@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <random>
 
@@ -155,24 +154,6 @@ TEST(AbsorbingBoundary, StaysStableUpToItsCriticalStepAndNotBeyond) {
       EXPECT_EQ(std::fabs(u) < 1.0, part < 1.0) << implicit << " " << part << ": " << u;
     }
   }
-}
-
-TEST(AbsorbingBoundary, RefusesWhatNoGroundHas) {
-  const auto fault = [](const std::function<void(Ground &)> &change) {
-    Ground ground{rho, cp, cs, H, area};
-    change(ground);
-    return ground.invalid();
-  };
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(fault([](Ground &g) { g.density = 0.0; }), "density is '0 kg/m3'; allowed: finite and > 0");
-  EXPECT_EQ(fault([](Ground &g) { g.p_speed = -1.0; }),
-            "speed of compression waves is '-1 m/s'; allowed: finite and > 0");
-  EXPECT_EQ(fault([](Ground &g) { g.s_speed = -1.0; }),
-            "speed of shear waves is '-1 m/s'; allowed: finite and >= 0");
-  EXPECT_EQ(fault([](Ground &g) { g.s_speed = 301.0; }),
-            "speed of shear waves is '301 m/s'; allowed: at most that of compression waves, 300 m/s");
-  EXPECT_EQ(fault([](Ground &g) { g.depth = 0.0; }), "depth is '0 m'; allowed: > 0, may be infinite");
-  EXPECT_EQ(fault([nan](Ground &g) { g.area = nan; }), "area is 'nan m2'; allowed: finite and > 0");
 }
 
 } // namespace

@@ -1,14 +1,11 @@
-// Makes and breaks located within a step, against exact free flight and the closed form of the damped
-// oscillator.
+// Makes and breaks located within a step, against exact free flight. Those of impacts, of every law, are in
+// law_impact_test.
 
 #include "physics/scheme/event_location.h"
 #include "physics/laws/linear_contact.h"
 
-#include "tests/support/oscillator.h"
-
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -17,25 +14,7 @@ using namespace drumlin::physics;
 
 constexpr double k = 1e8;
 constexpr double m = 2000.0;
-const double w0 = std::sqrt(k / m);
 double damping(double D) { return 2.0 * D * std::sqrt(m * k); }
-
-/// Overlap and its rate in an impact from d(0) = 0, d'(0) = 1: closed form.
-OverlapState in_impact(double c, double t) {
-  const oracle::Motion motion = oracle::Oscillator{m, k, c}.at(t, 0.0, 1.0);
-  return {motion.x, motion.v};
-}
-
-/// Time of the break by bisection of the closed form between two times of known signs.
-template <typename Sum>
-double root_between(double low, double high, const Sum &sum) {
-  const bool rising = sum(low) < 0.0;
-  for (int n = 0; n < 200; ++n) {
-    const double middle = 0.5 * (low + high);
-    ((sum(middle) < 0.0) == rising ? low : high) = middle;
-  }
-  return low;
-}
 
 TEST(EventLocation, MakeOutOfFreeFlightIsExact) {
   // d(t) = d0 + v t + g t^2 / 2 through zero, upwards, at any place of the step and also with an approach
@@ -65,46 +44,6 @@ TEST(EventLocation, ABallThatTurnsRoundIntoContactIsFound) {
   ASSERT_TRUE(event.has_value());
   EXPECT_NEAR(event->since, (1.0 + std::sqrt(17.0)) / 8.0, 1e-12);
 }
-
-class BreakError : public ::testing::TestWithParam<Transition> {};
-
-/// Largest error of the located break over many places within the step.
-double worst_error(Transition transition, double D, double dt) {
-  const double c = damping(D);
-  const auto sum = [&](double t) {
-    const OverlapState s = in_impact(c, t);
-    return transition == Transition::A ? s.overlap : k * s.overlap + c * s.rate;
-  };
-  const double exact =
-      root_between(0.3 * M_PI / w0, (transition == Transition::A ? 1.1 : 1.0) * M_PI / w0, sum);
-  double worst = 0.0;
-  for (int n = 0; n < 50; ++n) {
-    const double begin = exact - (n + 0.5) / 50.0 * dt;
-    const auto event =
-        locate_transition(LinearLaw(k, c, transition), dt, in_impact(c, begin), in_impact(c, begin + dt));
-    if (!event || event->make) return INFINITY;
-    worst = std::max(worst, std::fabs(begin + event->since - exact));
-    if (transition == Transition::B) {
-      EXPECT_EQ(event->force, 0.0);
-      EXPECT_NEAR(event->rate, -k * event->overlap / c, 1e-12); // Eq. (7)
-    } else {
-      EXPECT_NEAR(event->force, c * event->rate, 1e-9 * c); // Eq. (5)
-      EXPECT_LT(event->force, 0.0);
-    }
-  }
-  return worst;
-}
-
-TEST_P(BreakError, FallsAtLeastWithTheSquareOfTheStep) {
-  const double dt = M_PI / w0 / 50.0;
-  const double coarse = worst_error(GetParam(), 0.2, dt);
-  const double fine = worst_error(GetParam(), 0.2, dt / 4.0);
-  EXPECT_LT(coarse, 0.05 * dt);
-  EXPECT_LT(fine, coarse / 14.0);
-}
-
-INSTANTIATE_TEST_SUITE_P(AB, BreakError, ::testing::Values(Transition::A, Transition::B),
-                         [](const auto &row) { return row.param == Transition::A ? "A" : "B"; });
 
 TEST(EventLocation, RemakeUnderBHappensWithOverlap) {
   // k d + c d' crosses zero upwards while d > 0: the clamp lets go without a gap.

@@ -1,8 +1,8 @@
 /// Friction: closed forms, CVODE with a mode for sticking and one for sliding, the readings of the limit,
 /// energy; of Cap::coulomb limit and energy in every step. Whole impacts: oblique_impact_test.cpp.
 
-#include "physics/laws/linear_contact.h"
 #include "physics/laws/friction_law.h"
+#include "tests/plugin/physics/vectors.h"
 #include "tests/support/ode.h"
 #include "tests/support/oscillator.h"
 
@@ -15,17 +15,12 @@
 namespace {
 
 using namespace drumlin::physics;
+using drumlin::test::decades;
+using drumlin::test::length;
 
 constexpr double kt = 1e4, ct = 40.0, mu = 0.5;
 const Vec3 up{0.0, 0.0, 1.0};
 const Vec3 none{};
-
-double dot(const Vec3 &a, const Vec3 &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double length(const Vec3 &a) { return std::sqrt(dot(a, a)); }
-Vec3 times(double s, const Vec3 &a) { return {s * a[0], s * a[1], s * a[2]}; }
-Vec3 cross(const Vec3 &a, const Vec3 &b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 const char *name_of(Cap cap) {
   return cap == Cap::spring ? "spring" : cap == Cap::total ? "total" : "coulomb";
@@ -45,11 +40,11 @@ TEST_P(EitherCap, SticksAsADampedOscillator) { // the spring follows the closed 
   Vec3 spring{};
   for (int n = 0; n < 10000; ++n) {
     const oracle::Motion middle = closed.at((n + 0.5) * dt, 0.0, 1.0);
-    const FrictionStep step = friction_step(friction, 1e6, normal, times(middle.v, along), spring, dt);
+    const FrictionStep step = friction_step(friction, 1e6, normal, scaled(middle.v, along), spring, dt);
     ASSERT_FALSE(step.sliding);
     spring = step.spring;
     const oracle::Motion now = closed.at((n + 1) * dt, 0.0, 1.0);
-    const FrictionStep still = friction_step(friction, 1e6, normal, times(now.v, along), spring, 0.0);
+    const FrictionStep still = friction_step(friction, 1e6, normal, scaled(now.v, along), spring, 0.0);
     ASSERT_NEAR(dot(still.force, along), now.a, 1e-4);
     ASSERT_NEAR(length(still.force), std::fabs(now.a), 1e-4);
     ASSERT_NEAR(still.stored, 0.5 * kt * now.x * now.x, 1e-5);
@@ -93,7 +88,7 @@ TEST_P(EitherCap, KeepsTheSpringInTheTangentPlane) {
   EXPECT_NEAR(step.spring[1], 2e-3, 1e-18);
   EXPECT_NEAR(length(step.spring), std::hypot(1e-3 * std::cos(tilt), 2e-3), 1e-16);
   const FrictionStep flipped =
-      friction_step(friction, 1e6, times(-1.0, normal), none, {1e-3, 2e-3, 0.0}, 1e-5);
+      friction_step(friction, 1e6, scaled(-1.0, normal), none, {1e-3, 2e-3, 0.0}, 1e-5);
   EXPECT_EQ(step.force, flipped.force);
   const double before = 0.5 * kt * 5e-6;
   EXPECT_NEAR(step.stored + step.dissipated, before, 1e-15);
@@ -313,7 +308,7 @@ TEST(SlipOfAStep, IsZeroWhereABallRollsWithoutSlip) {
   const double small = std::hypot(height, across) - large;
   for (const double dt : {1e-2, 1e-4, 0.0}) {
     const Vec3 v{0.0, speed, 0.0}, apart{across, 0.5 * dt * speed, height};
-    const Vec3 normal = times(1.0 / length(apart), apart);
+    const Vec3 normal = scaled(1.0 / length(apart), apart);
     const double arm = small * height / (large + small); // of the contact point from the axis of the spin
     const Vec3 turning{-small * speed / arm, 0.0, 0.0};
     const Vec3 slip = slip_velocity_of_step(v, normal_in_middle(apart, v, dt), normal, turning);
@@ -335,11 +330,6 @@ TEST(SlipOfAStep, IsAcrossTheNormalAndWithoutATurnTheSlipVelocity) {
   EXPECT_NEAR(dot(slip_velocity_of_step(v, normal_in_middle(apart, v, 0.1), up, turning), up), 0.0, 1e-16);
 }
 
-/// 10^x with x uniform between the decades.
-double decades(std::mt19937 &random, double lowest, double highest) {
-  return std::pow(10.0, std::uniform_real_distribution<double>(lowest, highest)(random));
-}
-
 TEST(Coulomb, KeepsTheLimitAndIsPassiveInEveryStep) {
   std::mt19937 random(32452843);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -353,8 +343,8 @@ TEST(Coulomb, KeepsTheLimitAndIsPassiveInEveryStep) {
     double stored = 0.0;
     for (int n = 0; n < 50; ++n) {
       normal = drumlin::physics::sum(normal, 0.1, turn); // rolls
-      normal = times(1.0 / length(normal), normal);
-      const Vec3 any = times(speed, vector());
+      normal = scaled(1.0 / length(normal), normal);
+      const Vec3 any = scaled(speed, vector());
       const Vec3 v = drumlin::physics::sum(any, -dot(any, normal), normal);
       const double normal_force = size * (unit(random) + 0.5);
       const FrictionStep step = friction_step(friction, normal_force, normal, v, spring, dt);

@@ -4,6 +4,7 @@
 #include "physics/laws/rolling_law.h"
 
 #include "physics/laws/linear_contact.h"
+#include "tests/plugin/physics/vectors.h"
 #include "tests/support/ode.h"
 #include "tests/support/oscillator.h"
 
@@ -15,6 +16,8 @@
 namespace {
 
 using namespace drumlin::physics;
+using drumlin::test::decades;
+using drumlin::test::length;
 
 constexpr double kt = 1e6, radius = 0.1, mu_r = 0.2, weight = 100.0;
 constexpr double kr = kt * radius * radius;      // N m
@@ -22,8 +25,6 @@ constexpr double limit = mu_r * radius * weight; // N m
 const Vec3 up{0.0, 0.0, 1.0};
 const Vec3 none{};
 
-double length(const Vec3 &a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
-double along(const Vec3 &a, const Vec3 &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Rolling resistance() { return rolling_of(kt, mu_r, radius); }
 
 TEST(Rolling, TakesStiffnessAndLimitFromTheEffectiveRadius) {
@@ -49,7 +50,7 @@ TEST(Rolling, SwingsAsTheClosedFormOfTheSpring) { // the spring follows the angl
     ASSERT_FALSE(step.limited);
     spring = step.spring;
     const oracle::Motion now = closed.at((n + 1) * dt, 0.0, 1.0);
-    ASSERT_NEAR(along(step.torque, axis), inertia * now.a, 1e-6 * inertia * 158.0);
+    ASSERT_NEAR(dot(step.torque, axis), inertia * now.a, 1e-6 * inertia * 158.0);
     ASSERT_NEAR(length(step.torque), std::fabs(inertia * now.a), 1e-6 * inertia * 158.0);
     ASSERT_NEAR(step.stored, 0.5 * kr * now.x * now.x, 1e-6);
   }
@@ -126,7 +127,7 @@ TEST(Rolling, ComesToRestAsTheClosedFormAndCvodeSay) {
 TEST(Rolling, HasATorqueAcrossTheNormal) {
   const Vec3 normal{std::sin(0.1), 0.0, std::cos(0.1)};
   const RollingStep step = rolling_step(resistance(), 1e6, normal, none, {1.0, 2.0, 0.0}, 1e-5);
-  EXPECT_NEAR(along(step.torque, normal), 0.0, 1e-15);
+  EXPECT_NEAR(dot(step.torque, normal), 0.0, 1e-15);
   EXPECT_NEAR(length(step.spring), std::hypot(std::cos(0.1), 2.0), 1e-14);
   EXPECT_NEAR(step.stored + step.dissipated, 0.5 * 5.0 / kr, 1e-17);
   const RollingStep flipped =
@@ -149,10 +150,6 @@ TEST(Rolling, DoesNotMoveTheSpringInNoTime) {
 TEST(Rolling, HasNoTorqueWithoutNormalForce) {
   EXPECT_EQ(length(rolling_step(resistance(), 0.0, up, {1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 1e-5).torque), 0.0);
   EXPECT_EQ(length(rolling_step(resistance(), 0.0, up, none, none, 1e-5).torque), 0.0);
-}
-
-double decades(std::mt19937 &random, double lowest, double highest) {
-  return std::pow(10.0, std::uniform_real_distribution<double>(lowest, highest)(random));
 }
 
 TEST(Rolling, IsLimitedAfterwardsAsWithTheSmallerNormalForce) {
@@ -190,7 +187,7 @@ TEST(Rolling, KeepsTheLimitAndCannotCreateEnergyInAnyStep) {
       const RollingStep step = rolling_step(rolling, normal_force, normal, spin, spring, dt);
       spring = step.spring;
       ASSERT_LE(length(step.torque), rolling.arm * std::fabs(normal_force) * (1.0 + 1e-15));
-      const double work = -along(step.torque, spin) * dt;
+      const double work = -dot(step.torque, spin) * dt;
       const double rounding = 1e-13 * (std::fabs(work) + step.stored + stored);
       ASSERT_GE(work, step.stored - stored - rounding);
       ASSERT_GE(step.dissipated, -rounding);
@@ -216,7 +213,7 @@ double missing_work(int steps) {
         rolling_step(resistance(), weight + 30.0 * std::sin(90.0 * t), normal, spin, spring, dt);
     spring = step.spring;
     stored = step.stored;
-    work -= along(step.torque, spin) * dt;
+    work -= dot(step.torque, spin) * dt;
     heat += step.dissipated;
   }
   EXPECT_GT(heat, 1e-4);

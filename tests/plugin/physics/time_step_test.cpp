@@ -136,23 +136,6 @@ TEST(CriticalStep, KeepsItsDigitsForAnyDamping) {
   EXPECT_NEAR(critical_step_stock(1e308, 0.0, 1e300), 2e-4, 1e-15); // no overflow on the way
 }
 
-TEST(CriticalStep, HoldsForTheSteppingItself) {
-  const double m = 2000.0, k = 1e8, c = 2.0 * 0.5 * std::sqrt(k * m);
-  const double limit = critical_step_stock(k, c, m);
-  const auto forces = [&](double, const std::array<double, 1> &x, const std::array<double, 1> &v) {
-    return std::array<double, 1>{-k * x[0] - c * v[0]};
-  };
-  for (const double share : {0.99, 1.01}) {
-    verlet::Balls<1> ball{{m}, {1e-3}, {0.0}, {-k * 1e-3}};
-    for (int n = 0; n < 20000; ++n)
-      verlet::stock_step(ball, 0.0, share * limit, forces);
-    if (share < 1.0)
-      EXPECT_LT(std::fabs(ball.x[0]), 1e-9);
-    else
-      EXPECT_FALSE(std::fabs(ball.x[0]) < 1e3);
-  }
-}
-
 TEST(CriticalStep, OfABallBetweenFixedPartnersIsExact) {
   const double m = 2000.0;
   const Chain chain{{m}, {{0, -1, 1e8, 2e5}, {0, -1, 3e7, 9e5}, {0, -1, 1e6, 0.0}}};
@@ -417,15 +400,13 @@ TEST(Figures, OfAContact) {
   EXPECT_DOUBLE_EQ(damping_ratio(1e8, 4e5, 4.0 * 1e2), 1.0);
   // An undamped impact of the stock stepping ends after half a period.
   const double m = 2000.0, k = 1e8, dt = 1e-6;
-  verlet::Balls<1> ball{{m}, {0.0}, {0.4}};
+  verlet::Ball<LinearLaw> ball(m, 0.0, -0.4, dt, {{0.0, 1.0, {k, 0.0, Transition::B}}}, 0.0,
+                               verlet::Scheme::stock);
   int steps = 0;
   do {
-    verlet::stock_step(ball, 0.0, dt,
-                       [&](double, const std::array<double, 1> &x, const std::array<double, 1> &) {
-                         return std::array<double, 1>{-k * x[0]};
-                       });
+    ball.step();
     ++steps;
-  } while (ball.x[0] > 0.0);
+  } while (ball.x < 0.0);
   EXPECT_NEAR(steps_per_contact(k, m, dt), steps, 1.0);
 }
 
