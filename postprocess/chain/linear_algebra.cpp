@@ -23,6 +23,16 @@ double last_pivot_of(const Eigen::Ref<const Eigen::MatrixXd> &A) {
   return Eigen::FullPivLU<Eigen::MatrixXd>(A).matrixLU()(A.rows() - 1, A.cols() - 1);
 }
 
+Eigen::MatrixXd product_of(const Eigen::Ref<const Eigen::MatrixXd> &A,
+                           const Eigen::Ref<const Eigen::MatrixXd> &B) {
+  return A * B;
+}
+
+PseudoInverse pseudo_inverse_of(const Eigen::Ref<const Eigen::MatrixXd> &A) {
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors(A);
+  return {factors.pseudoInverse(), factors.rank()};
+}
+
 LeastSquares::LeastSquares(const Eigen::Ref<const Eigen::MatrixXd> &A) {
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A);
   q_ = qr.householderQ() * Eigen::MatrixXd::Identity(A.rows(), A.cols());

@@ -18,6 +18,17 @@ Eigen::VectorXd solution_of(const Eigen::Ref<const Eigen::MatrixXd> &A,
 /// The last pivot of the same decomposition: 0 if the matrix is singular.
 double last_pivot_of(const Eigen::Ref<const Eigen::MatrixXd> &A);
 
+/// A B.
+Eigen::MatrixXd product_of(const Eigen::Ref<const Eigen::MatrixXd> &A,
+                           const Eigen::Ref<const Eigen::MatrixXd> &B);
+
+/// The pseudo-inverse of Moore and Penrose, and the rank, of any matrix.
+struct PseudoInverse {
+  Eigen::MatrixXd matrix;
+  Eigen::Index rank = 0;
+};
+PseudoInverse pseudo_inverse_of(const Eigen::Ref<const Eigen::MatrixXd> &A);
+
 /// A problem of linear least squares with at least as many rows as unknowns, by Householder's QR.
 class LeastSquares {
 public:
