@@ -213,7 +213,9 @@ void run_two_sided(const Arguments &arguments, const RecordSetting &setting, con
   const Laws parts = machine_parts(record.tolerances, arguments.record, way, record, laws_of(found), true,
                                    [&](Record changed) {
                                      changed.tolerances = record.tolerances;
-                                     return identify_two_sided(changed, setting);
+                                     RecordSetting same = setting;
+                                     same.search = found.motion.any_force;
+                                     return identify_two_sided(changed, same);
                                    });
   for (std::size_t half = 0; half < parts.size(); ++half)
     found.halves[half].machine = parts[half];
@@ -252,9 +254,10 @@ void run(const Arguments &arguments) {
   const Laws parts = machine_parts(record.tolerances, arguments.record, way, record, laws_of(found),
                                    found.motion.has_value(), [&](Record changed) {
                                      changed.tolerances = record.tolerances;
-                                     RecordSetting whole = setting;
-                                     whole.window = 0;
-                                     return identify_record(changed, whole);
+                                     RecordSetting same = setting;
+                                     same.window = 0;
+                                     same.search = found.motion && found.motion->any_force;
+                                     return identify_record(changed, same);
                                    });
   if (!parts.empty()) found.machine = parts.front();
   std::optional<LumpedComparison> compared;
