@@ -110,49 +110,68 @@ MachineTolerances judge_tolerances(const Arguments &arguments, const Record &rec
                              "not given for a record with a column F_excitation"));
   return {share("--m2-tolerance", arguments.m2_tolerance, file.m2),
           share("--m3-tolerance", arguments.m3_tolerance, file.m3),
-          share("--me-re-tolerance", arguments.me_re_tolerance, with_force ? 0.0 : file.me_re)};
+          share("--me-re-tolerance", arguments.me_re_tolerance, with_force ? 0.0 : file.me_re),
+          record.two_sided() ? file.exciter : 0.0};
 }
 
-/// What the tolerances do to k, c and D: the record is read and identified again with each datum changed.
-std::optional<MachinePart> machine_part(const MachineTolerances &tolerances, const RecordArguments &arguments,
-                                        const RecordSetting &setting, const WayRange &way,
-                                        const Record &record, const IdentifiedRecord &found) {
-  // The whole motion has the bond among its unknowns.
-  const double of_bond = record.frame_computed && !found.motion ? record.bond->tolerance : 0.0;
-  if (tolerances.m2 + tolerances.m3 + tolerances.me_re + of_bond == 0.0) return std::nullopt;
-  MachinePart part;
-  const auto add = [&](double tolerance, const std::function<void(RecordArguments &, double)> &change) {
+/// k, c and D of each contact, with the parts of the machine.
+using Laws = std::vector<MachinePart>;
+
+Laws laws_of(const IdentifiedRecord &found) {
+  const LawEstimate &law = found.whole.law;
+  return {{law.k.mean, law.c.mean, law.D.mean}};
+}
+
+Laws laws_of(const TwoSidedRecord &found) {
+  Laws laws;
+  for (const HalfLaw &half : found.halves)
+    laws.push_back({half.k.mean, half.c.mean, half.D.mean});
+  return laws;
+}
+
+/// What the tolerances do to k, c and D of each contact: the record is read and identified again with each
+/// datum changed. Nothing without tolerances.
+/// \param identify a function that identifies a record
+template <class Identify>
+Laws machine_parts(const MachineTolerances &tolerances, const RecordArguments &arguments, const WayRange &way,
+                   const Record &record, const Laws &found, bool by_motion, const Identify &identify) {
+  // The whole motion has force and bond among its unknowns.
+  const double of_bond = record.frame_computed && !by_motion ? record.bond->tolerance : 0.0;
+  const double of_force = by_motion ? 0.0 : tolerances.me_re;
+  if (tolerances.m2 + tolerances.m3 + tolerances.exciter + of_force + of_bond == 0.0) return {};
+  Laws parts(found.size());
+  const auto add = [&](double tolerance, double most_step,
+                       const std::function<void(RecordArguments &, double)> &change) {
     if (tolerance == 0.0) return;
-    constexpr double most_step = 0.01; // the effect is linear in smaller ones
-    const double step = std::min(tolerance, most_step);
+    const double step = std::min(tolerance, most_step); // the effect is linear in smaller ones
     RecordArguments changed = arguments;
     if (record.frame_computed) { // a given frame mass must not change the bond of a roller
       changed.k23 = fmt::format("{:.17g}", record.bond->stiffness);
       changed.c23 = fmt::format("{:.17g}", record.bond->damping);
       changed.bond_tolerance = fmt::format("{:.17g}", 100.0 * record.bond->tolerance);
     }
-    change(changed, 1.0 + step);
-    const Record again = read(changed, way);
-    const LawEstimate law = identify_record(again, setting).whole.law, &before = found.whole.law;
-    const double factor = tolerance / step;
-    part.k = std::hypot(part.k, factor * (law.k.mean - before.k.mean));
-    part.c = std::hypot(part.c, factor * (law.c.mean - before.c.mean));
-    part.D = std::hypot(part.D, factor * (law.D.mean - before.D.mean));
+    change(changed, step);
+    const Laws again = laws_of(identify(read(changed, way)));
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      for (const auto value : {&MachinePart::k, &MachinePart::c, &MachinePart::D})
+        parts[i].*value = std::hypot(parts[i].*value, tolerance / step * (again[i].*value - found[i].*value));
   };
-  add(tolerances.m2, [&](RecordArguments &a, double by) { a.m2 = fmt::format("{:.17g}", by * *record.m2); });
-  add(tolerances.m3, [&](RecordArguments &a, double by) { a.m3 = fmt::format("{:.17g}", by * *record.m3); });
-  add(of_bond, [&](RecordArguments &a, double by) {
-    a.k23 = fmt::format("{:.17g}", by * record.bond->stiffness);
-    a.c23 = fmt::format("{:.17g}", by * record.bond->damping);
+  constexpr double share = 0.01, length = 0.01; // m
+  const auto text = [](double by, double value) { return fmt::format("{:.17g}", (1.0 + by) * value); };
+  add(tolerances.m2, share, [&](RecordArguments &a, double by) { a.m2 = text(by, *record.m2); });
+  add(tolerances.m3, share, [&](RecordArguments &a, double by) { a.m3 = text(by, *record.m3); });
+  add(tolerances.exciter, length, [&](RecordArguments &a, double by) { a.exciter_shift = by; });
+  add(of_bond, share, [&](RecordArguments &a, double by) {
+    a.k23 = text(by, record.bond->stiffness);
+    a.c23 = text(by, record.bond->damping);
   });
-  add(tolerances.me_re, [&](RecordArguments &a, double by) {
-    const double Fw = by * *record.Fw;
+  add(of_force, share, [&](RecordArguments &a, double by) {
     if (a.Fw)
-      a.Fw = fmt::format("{:.17g}", Fw);
+      a.Fw = text(by, *record.Fw);
     else
-      a.me_re = fmt::format("{:.17g}", Fw / (*record.omega * *record.omega));
+      a.me_re = text(by, *record.Fw / (*record.omega * *record.omega));
   });
-  return part;
+  return parts;
 }
 
 void make_parent_of(const fs::path &place, const Arguments &arguments) {
@@ -182,18 +201,24 @@ void publish(const Arguments &arguments, const fs::path &place, const Record &re
 
 /// A record of both ends of the drum.
 void run_two_sided(const Arguments &arguments, const RecordSetting &setting, const fs::path &place,
-                   const Record &record) {
+                   const Record &record, const WayRange &way) {
   const char *const allowed = "not given for a record of both ends of the drum";
   if (arguments.compare) throw UsageError(refusal("--compare", "", allowed));
-  for (const auto &[name, text] :
-       {std::pair{"--origin", arguments.origin}, std::pair{"--m2-tolerance", arguments.m2_tolerance},
-        std::pair{"--m3-tolerance", arguments.m3_tolerance},
-        std::pair{"--me-re-tolerance", arguments.me_re_tolerance},
-        std::pair{"--logger-low-pass", arguments.record.logger_low_pass}})
+  for (const auto &[name, text] : {std::pair{"--origin", arguments.origin},
+                                   std::pair{"--logger-low-pass", arguments.record.logger_low_pass}})
     if (text) throw UsageError(refusal(name, *text, allowed));
   TimedProgress progress;
-  const TwoSidedRecord found = identify_two_sided(
+  TwoSidedRecord found = identify_two_sided(
       record, setting, [&progress](const std::string &what) { progress.tell("{}", what); });
+  const Laws parts = machine_parts(record.tolerances, arguments.record, way, record, laws_of(found), true,
+                                   [&](Record changed) {
+                                     changed.tolerances = record.tolerances;
+                                     RecordSetting same = setting;
+                                     same.search = found.motion.any_force;
+                                     return identify_two_sided(changed, same);
+                                   });
+  for (std::size_t half = 0; half < parts.size(); ++half)
+    found.halves[half].machine = parts[half];
   publish(arguments, place, record, found, [&](const fs::path &folder) {
     write_identification_page(folder, found, roller_words(record.parameters));
   });
@@ -207,16 +232,16 @@ void run(const Arguments &arguments) {
   const WayRange way = judged(arguments.way);
   const fs::path place = judged_folder(arguments.out);
   keep_apart(files_of(arguments.record), {{"--out", place, true}});
-  const Record record = read(arguments.record, way);
+  Record record = read(arguments.record, way);
   if (const auto length = window_length(arguments.window))
     setting.window = cycles_on(record, arguments.window, *length);
-  const MachineTolerances tolerances = judge_tolerances(arguments, record);
+  record.tolerances = judge_tolerances(arguments, record);
   if (record.low_pass > 0.0 && !arguments.anyway)
     throw UsageError(refusal("--low-pass", fmt::format("{:g}", record.low_pass),
                              "no filter: it smooths the jump of each landing, which changes k and c; the fit "
                              "averages noise by itself"));
   if (record.two_sided()) {
-    run_two_sided(arguments, setting, place, record);
+    run_two_sided(arguments, setting, place, record, way);
     return;
   }
   if (arguments.compare) require_comparable(record);
@@ -226,7 +251,15 @@ void run(const Arguments &arguments) {
   const std::optional<std::string> doubt = contradiction(found);
   if (doubt && !arguments.anyway)
     throw std::runtime_error(fmt::format("{}: {} (--anyway shows the result)", found.file.string(), *doubt));
-  found.machine = machine_part(tolerances, arguments.record, setting, way, record, found);
+  const Laws parts = machine_parts(record.tolerances, arguments.record, way, record, laws_of(found),
+                                   found.motion.has_value(), [&](Record changed) {
+                                     changed.tolerances = record.tolerances;
+                                     RecordSetting same = setting;
+                                     same.window = 0;
+                                     same.search = found.motion && found.motion->any_force;
+                                     return identify_record(changed, same);
+                                   });
+  if (!parts.empty()) found.machine = parts.front();
   std::optional<LumpedComparison> compared;
   if (arguments.compare) compared = compare_lumped(record, found);
   publish(arguments, place, record, found, [&](const fs::path &folder) {

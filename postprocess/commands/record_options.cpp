@@ -106,6 +106,7 @@ void add_roller(GivenRoller &roller, const Noted &noted, RecordOptions &options)
   Roller &machine = roller.machine;
   RollerSetting &setting = roller.setting;
   MachineTolerances &tolerances = options.tolerances;
+  tolerances.exciter = machine.exciter_tolerance;
   take(options.omega, 2.0 * pi * setting.frequency, noted, "omega");
   if (take(options.m2, machine.m2, noted, "m2")) tolerances.m2 = machine.m2_tolerance;
   if (take(options.m3, machine.m3, noted, "m3")) tolerances.m3 = machine.m3_tolerance;
@@ -146,7 +147,7 @@ std::optional<KnownBond> bond_of(std::optional<double> k23, std::optional<double
 }
 
 /// How the roller tilts, if its file says it.
-std::optional<TwoEnds> ends_of(const GivenRoller &roller) {
+std::optional<TwoEnds> ends_of(const GivenRoller &roller, double exciter_shift) {
   const Roller &machine = roller.machine;
   if (!machine.width || !machine.drum_inertia || !machine.frame_inertia) return std::nullopt;
   ChainParameters chain;
@@ -156,6 +157,7 @@ std::optional<TwoEnds> ends_of(const GivenRoller &roller) {
   chain.c23 = machine.c23;
   TwoEnds ends = two_ends(chain, machine);
   ends.contacts = equal_contacts(2, *machine.width, 0.0, 0.0);
+  ends.exciter += exciter_shift;
   return ends;
 }
 
@@ -315,7 +317,7 @@ Record judged(const RecordArguments &arguments) {
     const double tolerance = 0.01 * number_option("--bond-tolerance", *arguments.bond_tolerance, range);
     if (options.bond) options.bond->tolerance = tolerance;
   }
-  if (roller) options.ends = ends_of(*roller);
+  if (roller) options.ends = ends_of(*roller, arguments.exciter_shift);
   const std::optional<double> low_pass = std::exchange(options.low_pass, std::nullopt);
   Record record = read_record(paths, options);
   if (options.logger_filter && (record.pieces.empty() || !options.omega || record.excitation_read))

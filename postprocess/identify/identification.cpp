@@ -419,7 +419,8 @@ std::vector<ContactPiece> sorted_again(const DrumSignals &signals, const Found &
 }
 
 // Whether tension is seen, or would be if the contact could pull.
-void judge_pull(const DrumSignals &signals, Identification &result, const std::vector<double> &limits) {
+void judge_pull(const DrumSignals &signals, double force_within, Identification &result,
+                const std::vector<double> &limits) {
   constexpr std::size_t enough = 3; // samples that show it
   const double noise = result.law.force_noise;
   constexpr double least_share = 0.08; // of the peak force: less may come from the data of machine or sensors
@@ -428,7 +429,7 @@ void judge_pull(const DrumSignals &signals, Identification &result, const std::v
   double most = 0.0;
   for (std::size_t i = 1; i < signals.size(); ++i) {
     const double force = std::max(result.force[i], result.force[i - 1]); // one of them alone is an outlier
-    const double limit = std::max({limits[i], 5.0 * noise, least_share * peak});
+    const double limit = std::max({limits[i], 5.0 * noise, least_share * peak}) + force_within;
     if (force >= -limit) continue;
     ++tensile;
     most = std::max(most, -force);
@@ -454,7 +455,7 @@ void judge_pull(const DrumSignals &signals, Identification &result, const std::v
   expected /= static_cast<double>(breaks);
   result.tension = expected;
   const double visible = static_cast<double>(breaks) * std::floor(0.5 * c / k / signals.dt);
-  const double limit = 5.0 * noise + *std::max_element(limits.begin(), limits.end());
+  const double limit = 5.0 * noise + *std::max_element(limits.begin(), limits.end()) + force_within;
   if (expected > 2.0 * limit && visible >= static_cast<double>(enough)) result.pull = Pull::does_not_pull;
 }
 
@@ -529,7 +530,7 @@ Identification identify(const DrumSignals &signals, const IdentificationSetting 
   result.law = found.law;
   result.pieces = std::move(found.pieces);
   describe(signals, found.unknowns, result);
-  judge_pull(signals, result, limits);
+  judge_pull(signals, setting.force_within, result, limits);
   return result;
 }
 

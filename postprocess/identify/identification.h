@@ -33,6 +33,8 @@ struct IdentificationSetting {
   /// Largest error of the exciter's phase [rad], 0 to 0.35: equally probable within it. 0: the phase is
   /// exact.
   double phase_within = 0.0;
+  /// Largest error of the force besides noise and phase [N]: no smaller tension is told.
+  double force_within = 0.0;
   /// Share of the largest force up to which forces are not fitted, unless the law follows them [-], 0 to 0.9.
   double least_force = 0.0;
 };

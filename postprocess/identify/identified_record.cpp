@@ -237,7 +237,7 @@ void take_motion(const MotionFit &motion, const Record &record, IdentifiedRecord
     constexpr double wider = 3.0; // behind a filter single contacts say nothing of the error
     if (record.logger_filter && !motion.is_noise)
       return MeanInterval{of_motion.mean, wider * of_motion.half_width};
-    const double off = motion.is_noise ? 0.0 : of_contacts.mean - of_motion.mean;
+    const double off = motion.is_noise && motion.is_long() ? 0.0 : of_contacts.mean - of_motion.mean;
     return MeanInterval{of_motion.mean, std::hypot(of_motion.half_width, off)};
   };
   const ContactFit &contact = motion.contacts.front();
@@ -271,6 +271,12 @@ IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &
       std::max({setting.phase_within, record.phase_within, 1.5 * record.phase_half_width});
   law.phase_within = phase_within;
   result.phase_known = phase_within == 0.0;
+  if (record.a_frame.empty() || record.frame_computed) { // the frame's force, or what its bond makes of it
+    double most = record.a_frame.empty() ? 0.5 * record.g.value_or(ChainParameters().g) : 0.0;
+    for (const double a : record.a_frame)
+      most = std::max(most, record.bond->tolerance * std::fabs(a));
+    law.force_within = *record.m3 * most;
+  }
   result.positions = !signals.x_drum.empty() || !signals.v_drum.empty();
   result.frame = !record.a_frame.empty();
   result.frame_computed = record.frame_computed;
@@ -286,17 +292,26 @@ IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &
     csv_fault(record.file, 0, {}, error.what());
   }
   add_meter_values(record, result);
-  if (!record.logger_filter) // of single contacts, whose landings a filter smooths
+  if (!record.logger_filter && setting.window > 0) // of single contacts, whose landings a filter smooths
     result.windows = windows_of(signals, law, result, setting.window, progress);
   if (has_motion(record) && !result.positions) {
     MotionSetting known;
     if (record.phase_half_width == 0.0) known.phase_within = phase_within;
     known.force_within = record.tolerances.me_re;
+    known.search = setting.search;
     if (progress) progress("the motion from contact to contact");
     if (const std::optional<MotionFit> motion = fit_motion(record, result.whole, known)) {
       const double close = record.logger_filter ? most_left_of_filtered : 0.05; // of the drum's acceleration
       result.left = motion->residual / rms(record.a_drum);
-      if (motion->is_noise || *result.left < close) take_motion(*motion, record, result);
+      if (motion->is_noise || *result.left < close) {
+        take_motion(*motion, record, result);
+      } else { // both are wrong: by as much as they differ, or more
+        LawEstimate &of_contacts = result.whole.law;
+        const ContactFit &of_motion = motion->contacts.front();
+        for (const auto &[value, other] :
+             {std::pair{&of_contacts.k, of_motion.k}, std::pair{&of_contacts.c, of_motion.c}})
+          value->half_width = std::hypot(value->half_width, value->mean - other.mean);
+      }
     }
   }
   return result;

@@ -22,7 +22,9 @@ struct RecordSetting {
   double phase_within = 0.0;
   /// Share of the largest force as in IdentificationSetting; not given: 0 for chain.csv, 0.2 for others.
   std::optional<double> least_force;
-  int window = 10; ///< cycles, 4 or more
+  int window = 10; ///< cycles, 4 or more; 0: no windows
+  /// As in MotionSetting.
+  bool search = true;
 };
 
 /// The law of a window of cycles.
@@ -34,7 +36,7 @@ struct LawWindow {
   std::string why_not; ///< the reason if there is no law
 };
 
-/// Half widths by the tolerances of the machine's data.
+/// k, c and D, or their half widths by the tolerances of the machine's data.
 struct MachinePart {
   double k = 0.0; ///< [N/m]
   double c = 0.0; ///< [N s/m]

@@ -1387,11 +1387,12 @@ double weight_of(double half_width) { return 3.84 / (half_width * half_width); }
 
 // What is known besides the record: of the exciter, and of the bond if the frame's motion is not measured.
 Known known_of(const Record &record, double m3, double g, const MotionSetting &setting) {
-  constexpr double exact = 1e-6, transient = 0.1; // what may still swing, of the static extension
+  constexpr double exact = 1e-6, exact_force = 1e-10;
+  constexpr double transient = 0.1; // what may still swing, of the static extension
   Known known;
   known.phase = *record.phase;
   if (setting.phase_within) known.of_phase = weight_of(std::max(*setting.phase_within, exact));
-  known.of_force = weight_of(std::max(setting.force_within, exact));
+  known.of_force = weight_of(std::max(setting.force_within, exact_force));
   if (!record.frame_computed) return known;
   known.stiffness = record.bond->stiffness;
   known.damping = record.bond->damping;
@@ -1552,7 +1553,7 @@ std::optional<MotionFit> follow_record(const Record &record, const Signals &sign
   result.phase = interval(Model::of_phase);
   result.force = interval(Model::of_force);
   result.pulls = found.pulls;
-  result.pull_is_clear = difference > clear;
+  result.pull_is_clear = difference > (is_noise ? clear : certain);
   result.bond_stiffness = found.k23;
   result.bond_damping = found.c23;
   result.tension = best->fit.tension();
@@ -1590,6 +1591,7 @@ std::optional<MotionFit> search(const Record &record, const Signals &signals, co
           stretch.start[height] =
               stretches[static_cast<std::size_t>(&stretch - starts.data())].start[height] / factor;
       std::optional<MotionFit> fit = follow_record(record, signals, other, std::move(starts), known);
+      if (fit) fit->any_force = any_force;
       if (fit && fit->is_noise) return fit;
       if (fit && (!best || fit->cost < best->cost)) best = std::move(fit);
     }

@@ -42,6 +42,10 @@ struct MotionFit {
   bool is_noise = false;
   double cost = 0.0;   ///< twice the logarithm of one over the likelihood
   double cycles = 0.0; ///< of the longest stretch that one motion follows
+  /// Whether that is long enough for its noise to say all of the error: a start each cycle or two follows
+  /// wrong data of the machine, too.
+  bool is_long() const { return cycles >= 3.0; }
+  bool any_force = false; ///< nothing followed the record to its noise with the force that is said
 };
 
 /// What is known besides the record.

@@ -32,6 +32,16 @@ std::string with_interval(const MeanInterval &value, double unit) {
   return fmt::format("{:.{}f} +- {:.{}f}", mean, decimals, shown, decimals);
 }
 
+/// The same with the part of the machine's tolerances, if there are any.
+std::string with_machine(const MeanInterval &value, const std::optional<MachinePart> &parts,
+                         double MachinePart::*part, double unit, const char *unit_name) {
+  std::string text = with_interval(value, unit) + unit_name;
+  if (parts)
+    text +=
+        fmt::format(" by noise, +- {:.2g}{} by the machine's tolerances", (*parts).*part / unit, unit_name);
+  return text;
+}
+
 bool has_flights(const Identification &found) {
   return std::any_of(found.pieces.begin(), found.pieces.end(),
                      [](const ContactPiece &piece) { return !piece.flight.empty(); });
@@ -73,7 +83,8 @@ std::string source_sentence(const IdentifiedRecord &record) {
   if (record.left)
     text += fmt::format(
         " Drum, frame, bond and a soil of constant k and c do not follow the whole motion: {:.2g} % "
-        "of the drum's acceleration are left, which the intervals do not contain.",
+        "of the drum's acceleration are left, which the intervals do not contain, but for what such a motion "
+        "would say instead.",
         100.0 * *record.left);
   if (record.frame_computed)
     text += " The acceleration of the frame is computed from that of the drum through the bond.";
@@ -232,11 +243,7 @@ std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
   const LawEstimate &law = record.whole.law;
   const auto value = [&record](const char *name, const MeanInterval &interval, double unit,
                                double MachinePart::*machine, const char *unit_name) {
-    std::string text = fmt::format("{} = {}{}", name, with_interval(interval, unit), unit_name);
-    if (record.machine)
-      text += fmt::format(" by noise, +- {:.2g}{} by the machine's tolerances",
-                          (*record.machine).*machine / unit, unit_name);
-    return text;
+    return fmt::format("{} = {}", name, with_machine(interval, record.machine, machine, unit, unit_name));
   };
   std::vector<std::string> lines = {
       value("k", law.k, 1e6, &MachinePart::k, " MN/m"),
@@ -406,9 +413,10 @@ std::vector<std::string> identification_answer(const TwoSidedRecord &record) {
   for (std::size_t half = 0; half < half_names.size(); ++half) {
     const HalfLaw &law = record.halves[half];
     lines.push_back(
-        fmt::format("{} half: k = {} MN/m, c = {} kN s/m, D = {}, in contact {:.1f} % of the time",
-                    half_names[half], with_interval(law.k, 1e6), with_interval(law.c, 1e3),
-                    with_interval(law.D, 1.0), 100.0 * law.contact_share));
+        fmt::format("{} half: k = {}, c = {}, D = {}, in contact {:.1f} % of the time", half_names[half],
+                    with_machine(law.k, law.machine, &MachinePart::k, 1e6, " MN/m"),
+                    with_machine(law.c, law.machine, &MachinePart::c, 1e3, " kN s/m"),
+                    with_machine(law.D, law.machine, &MachinePart::D, 1.0, ""), 100.0 * law.contact_share));
   }
   lines.push_back(fmt::format("both: k = {} MN/m; left over right {}", with_interval(record.k, 1e6),
                               with_interval(record.ratio, 1.0)));
@@ -426,19 +434,23 @@ std::vector<std::string> identification_answer(const TwoSidedRecord &record) {
 }
 
 std::string identification_csv(const TwoSidedRecord &record) {
-  std::string text = csv_line({"half", "k [N/m]", "k_half_width [N/m]", "c [N s/m]", "c_half_width [N s/m]",
-                               "D [-]", "D_half_width [-]", "contact_share [-]", "left over right [-]",
-                               "left over right_half_width [-]"});
+  std::string text =
+      csv_line({"half", "k [N/m]", "k_half_width [N/m]", "c [N s/m]", "c_half_width [N s/m]", "D [-]",
+                "D_half_width [-]", "contact_share [-]", "left over right [-]",
+                "left over right_half_width [-]", "k_machine [N/m]", "c_machine [N s/m]", "D_machine [-]"});
   for (std::size_t half = 0; half < half_names.size(); ++half) {
     const HalfLaw &law = record.halves[half];
     std::vector<std::string> cells = {half_names[half]};
     for (const MeanInterval &value : {law.k, law.c, law.D})
       cells.insert(cells.end(), {number_text(value.mean), number_text(value.half_width)});
     cells.insert(cells.end(), {number_text(law.contact_share), "", ""});
+    for (const auto part : {&MachinePart::k, &MachinePart::c, &MachinePart::D})
+      cells.push_back(law.machine ? number_text((*law.machine).*part) : "");
     text += csv_line(cells);
   }
-  return text + csv_line({"both", number_text(record.k.mean), number_text(record.k.half_width), "", "", "",
-                          "", "", number_text(record.ratio.mean), number_text(record.ratio.half_width)});
+  return text +
+         csv_line({"both", number_text(record.k.mean), number_text(record.k.half_width), "", "", "", "", "",
+                   number_text(record.ratio.mean), number_text(record.ratio.half_width), "", "", ""});
 }
 
 void write_identification_page(const std::filesystem::path &out, const TwoSidedRecord &record,

@@ -98,6 +98,7 @@ TwoSidedRecord identify_two_sided(const Record &record, const RecordSetting &set
   MotionSetting known;
   if (record.phase_half_width == 0.0) known.phase_within = phase_within;
   known.force_within = record.tolerances.me_re;
+  known.search = setting.search;
   if (progress) progress("the motion from contact to contact");
   const std::optional<MotionFit> motion = fit_motion(record, contacts, known);
   constexpr double close = 0.05, as_noise = 1e-4; // of the drum's acceleration
@@ -111,7 +112,7 @@ TwoSidedRecord identify_two_sided(const Record &record, const RecordSetting &set
   result.frequency = motion->omega.mean / (2.0 * 3.14159265358979323846);
   // If more than noise is left, the interval contains what single contacts say, too.
   const auto taken = [&](const MeanInterval &of_motion, const MeanInterval &of_contacts) {
-    const bool noise = motion->is_noise || left < as_noise;
+    const bool noise = (motion->is_noise && motion->is_long()) || left < as_noise;
     return MeanInterval{of_motion.mean,
                         std::hypot(of_motion.half_width, noise ? 0.0 : of_contacts.mean - of_motion.mean)};
   };

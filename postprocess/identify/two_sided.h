@@ -10,6 +10,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,12 @@ namespace drumlin::post {
 
 /// The soil below a half of the drum. Intervals: 95 %.
 struct HalfLaw {
-  MeanInterval k{};           ///< [N/m]
-  MeanInterval c{};           ///< [N s/m]
-  MeanInterval D{};           ///< c / (2 sqrt(m2/2 k)) [-]
-  double contact_share = 0.0; ///< share of the samples with more than 2 % of the largest force [-]
-  Identification contact;     ///< what its single contacts say
+  MeanInterval k{};                   ///< [N/m]
+  MeanInterval c{};                   ///< [N s/m]
+  MeanInterval D{};                   ///< c / (2 sqrt(m2/2 k)) [-]
+  double contact_share = 0.0;         ///< share of the samples with more than 2 % of the largest force [-]
+  Identification contact;             ///< what its single contacts say
+  std::optional<MachinePart> machine; ///< if tolerances are given
 };
 
 /// What a record of both ends says.

@@ -559,13 +559,13 @@ void take_pulses(Record &record, const RecordOptions &options) {
       off = std::fabs(off - middle);
     most = near;
   }
-  const double reach = most.empty() ? 0.0 : std::max(3.0 * degree, 5.0 * of_normal * median(most));
+  const double farthest = most.empty() ? 0.0 : std::max(3.0 * degree, 5.0 * of_normal * median(most));
   std::vector<double> times, angles;
   std::size_t doubled = 0;
   double turns = -1.0;
   for (std::size_t i = 0; i < rises.size(); ++i) {
     const double turn = std::round((of_drum[i] - center) / (2.0 * pi));
-    if (std::fabs(of_drum[i] - center - 2.0 * pi * turn) > reach || (!times.empty() && turn <= turns)) {
+    if (std::fabs(of_drum[i] - center - 2.0 * pi * turn) > farthest || (!times.empty() && turn <= turns)) {
       ++doubled;
       continue;
     }
@@ -725,6 +725,7 @@ void check_signs(const Record &record) {
 
 /// Refuses accelerations of drum and frame with which the drum does not fly, if it does with both turned.
 void check_turned(Record record) {
+  if (record.two_sided()) return; // whose phase has to be known
   turn(record.a_drum);
   turn(record.a_frame);
   if (flights_of(record))
@@ -828,6 +829,10 @@ void undo_logger_filter(Record &record, const LoggerFilter &filter) {
 }
 
 void take_flights(Record &record, const RecordOptions &options) {
+  if (record.two_sided() && record.phase) { // the whole motion tells more
+    check_drift(record);
+    return;
+  }
   std::optional<FlightFit> fit = flights_of(record);
   // Behind a filter that smooths too much the motion from contact to contact has to tell the phase.
   if (record.logger_filter && (!fit || std::fabs(fit->ratio.mean - 1.0) > machine_agreement)) {

@@ -25,10 +25,11 @@ struct RecordPiece {
   std::size_t samples = 0;
 };
 
-/// Relative tolerances of the data of a machine; 0: exact.
+/// Tolerances of the data of a machine, relative but for the place; 0: exact.
 struct MachineTolerances {
   double m2 = 0.0, m3 = 0.0; ///< of the masses of drum and frame
   double me_re = 0.0;        ///< of the eccentric moment, and so of Fw
+  double exciter = 0.0;      ///< of the exciter's place along the axle [m]
 };
 
 /// The bond of drum and frame as known without the record.

@@ -51,6 +51,7 @@ struct Roller {
   std::optional<double> drum_inertia;  ///< [kg m2]
   std::optional<double> frame_inertia; ///< [kg m2]
   double exciter_place = 0.0;          ///< [m]
+  double exciter_tolerance = 0.0;      ///< by which the exciter may stand elsewhere [m]
   std::optional<double> sensor_place;  ///< of the one on the drum [m]
   /// Springs and dashpots of the bond: distances of those left and right from the middle [m], and the share
   /// of k23 or c23 that is left.
@@ -127,6 +128,7 @@ inline std::vector<Quantity> quantities() {
           {"drum_inertia", {{"kg m2", 1.0}}, 1e9, false, false},
           {"frame_inertia", {{"kg m2", 1.0}}, 1e9, false, false},
           {"exciter_place", length, 100.0, true, false, true},
+          {"exciter_place_tolerance", length, 100.0, true, false},
           {"sensor_place", length, 100.0, true, false, true},
           {"frame_frequency", frequency, 1e3, false, false},
           {"frame_damping", {{"-", 1.0}, {"%", 0.01}}, 100.0, true, false},
@@ -175,6 +177,16 @@ inline std::optional<double> decimal(const std::string &text) {
   return value;
 }
 
+/// Half a unit of the last digit of a decimal number.
+inline double rounding_of(const std::string &number) {
+  const std::size_t exponent = std::min(number.find_first_of("eE"), number.size());
+  const std::size_t point = std::min(number.find('.'), exponent);
+  const double power = exponent < number.size() ? std::strtod(number.c_str() + exponent + 1, nullptr) : 0.0;
+  const auto decimals = static_cast<double>(exponent - std::min(exponent, point + 1));
+  return 0.5 * std::pow(10.0, power - decimals);
+}
+
+/// Of each name, and with " rounding" behind it by how much the value may have been rounded.
 using Values = std::map<std::string, double>;
 
 /// What the lines of a roller file say, in SI units.
@@ -242,6 +254,7 @@ inline void Lines::add(const std::string &text, const std::string &where) {
   if (!known->of_setting && !settings.empty() && !settings.front().first.empty())
     fail(name + " in " + where, both, "values of the machine before its settings");
   Values &values = known->of_setting ? settings.back().second : machine;
+  values.emplace(name + " rounding", rounding_of(number) * unit_of->factor);
   if (!values.emplace(name, in_si).second) fail(name + " in " + where, both, "one line for each name");
 }
 
@@ -332,7 +345,8 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
     roller.settings.push_back({name, frequency, me_re});
   }
   if (!m2 && frame && load && *load > *frame) m2 = *load - *frame;
-  if (!m2 && !masses.empty()) { // their mean
+  const bool from_amplitudes = !m2 && !masses.empty();
+  if (from_amplitudes) { // their mean
     m2 = 0.0;
     for (const auto &[of_setting, mass] : masses) {
       if (apart(mass, masses.front().second)) {
@@ -349,12 +363,20 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
     lines.missing("drum_mass",
                   "drum_mass, or a setting with an amplitude and a force or eccentric_moment, from "
                   "which it follows");
+  double squares = 0.0; // of the amplitudes' roundings
   for (std::size_t n = 0; n < roller.settings.size(); ++n) {
     const auto &[name, values] = lines.settings[n];
     const auto amplitude = values.find("amplitude");
     if (amplitude == values.end()) continue;
+    const double rounding = values.at("amplitude rounding") / amplitude->second;
     double &me_re = roller.settings[n].me_re;
-    if (me_re == 0.0) me_re = amplitude->second * *m2;
+    if (me_re > 0.0) {
+      squares += rounding * rounding;
+    } else { // a tolerance that is not said is that of the rounding
+      me_re = amplitude->second * *m2;
+      if (!lines.of("eccentric_moment_tolerance"))
+        roller.me_re_tolerance = std::max(roller.me_re_tolerance, rounding);
+    }
     if (apart(me_re / *m2, amplitude->second))
       contradict("amplitude" + (name.empty() ? "" : " of setting " + name), amplitude->second * 1e3, "mm",
                  "its eccentric moment, or force and frequency, and a drum of " + number_text(*m2) +
@@ -375,6 +397,12 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
     lines.fail("operating_mass", number_text(*roller.operating_mass) + " kg",
                "at least the load on the drum, " + number_text(roller.m2 + roller.m3) + " kg");
 
+  if (from_amplitudes) {
+    const double rounding = std::sqrt(squares) / static_cast<double>(masses.size());
+    if (!lines.of("drum_mass_tolerance")) roller.m2_tolerance = rounding;
+    if (!frame && !lines.of("frame_mass_tolerance")) roller.m3_tolerance = rounding * roller.m2 / roller.m3;
+  }
+
   // The bond.
   const std::optional<double> k23 = lines.of("bond_stiffness");
   const std::optional<double> f3 = lines.of("frame_frequency");
@@ -393,6 +421,7 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
   roller.drum_inertia = lines.of("drum_inertia");
   roller.frame_inertia = lines.of("frame_inertia");
   roller.exciter_place = lines.of("exciter_place").value_or(0.0);
+  roller.exciter_tolerance = lines.of("exciter_place_tolerance").value_or(0.0);
   roller.sensor_place = lines.of("sensor_place");
   if (roller.width && std::fabs(roller.exciter_place) > 0.5 * *roller.width)
     lines.fail("exciter_place", number_text(roller.exciter_place) + " m",

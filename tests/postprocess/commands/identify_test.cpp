@@ -105,6 +105,20 @@ TEST_F(IdentifyCommand, TellsTheSoilBelowEachHalf) {
     for (const char *made : {"index.html", "data/halves.csv", "figures/halves.png"})
       EXPECT_TRUE(fs::is_regular_file(scratch_ / "found" / made)) << made;
   }
+  // An exciter that stands 2 cm from where the file has it, which says so: the truth is within that.
+  post::write_files({{scratch_ / "aside", read_text(axas).replace(0, 0,
+                                                                  "exciter_place 2 cm\n"
+                                                                  "exciter_place_tolerance 2 cm\n")}});
+  well(
+      identify(with(file, {"--column", "a_frame=F", "--roller", "aside", "--phase", "0", "--out", "found"})));
+  const post::Table aside = post::read_table(scratch_ / "found/identify.csv");
+  for (const auto &[half, k] : {std::pair{0, 24e6}, std::pair{1, 16e6}}) {
+    const double off = std::fabs(post::number_from_text(aside.text("k [N/m]")[half]) - k);
+    const double within = post::number_from_text(aside.text("k_machine [N/m]")[half]);
+    const double noise = post::number_from_text(aside.text("k_half_width [N/m]")[half]);
+    EXPECT_GT(within, 0.0);
+    EXPECT_LT(off, 1.2 * std::hypot(within, noise));
+  }
   const std::vector<std::string> out = {"--out", "results"};
   const std::vector<std::string> plain = {"--frequency", "29",   "--me-re", "7.31", "--m2",     "3962.07",
                                           "--m3",        "3379", "--phase", "0",    "--column", "a_frame=F"};
@@ -256,15 +270,16 @@ TEST_F(IdentifyCommand, ShowsWhatTolerancesOfTheMachineDo) {
                            "bond_damping 31 kN s/m\ndrum_mass_tolerance 1 %\nfrequency 30 Hz\nforce 100 kN\n";
   post::write_files({{scratch_ / "measured.csv", text}, {scratch_ / "mine", file}});
   const auto machine = [&](const std::vector<std::string> &more, const char *column) {
-    std::vector<std::string> words = {"measured.csv", "--roller", "mine", "--phase", "0", "--out", "found"};
+    std::vector<std::string> words = {"measured.csv",   "--roller", "mine",  "--phase", "0",
+                                      "--phase-within", "0",        "--out", "found"};
     words.insert(words.end(), more.begin(), more.end());
     well(identify(words));
     return std::stod(
         post::read_table(scratch_ / "found/identify.csv").text(column).front()); // of all windows
   };
-  EXPECT_NEAR(machine({}, "k_machine [N/m]"), 1.42122e6, 2e3);
+  EXPECT_NEAR(machine({}, "k_machine [N/m]"), 1.42122e6, 8e3);
   EXPECT_NEAR(machine({}, "c_machine [N s/m]"), 0.0, 50.0);
-  EXPECT_NEAR(machine({"--m2-tolerance", "2"}, "k_machine [N/m]"), 2.84245e6, 5e3);
+  EXPECT_NEAR(machine({"--m2-tolerance", "2"}, "k_machine [N/m]"), 2.84245e6, 16e3);
   expect_refused({"measured.csv", "--roller", "mine", "--phase", "0", "--m2-tolerance", "-1"},
                  "--m2-tolerance is '-1'; allowed: ");
 }
@@ -310,7 +325,8 @@ TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
   expect_refused({"measured.csv", "--phase", "0", "--case", "CA9"}, "--case is 'CA9'; allowed: I, II");
 }
 
-// Unbroken contact, where nothing tells the phase, and one that is 90 degrees off.
+// Unbroken contact, where nothing tells the phase, and one that is 20 degrees off. With 90 degrees the exciter
+// would take energy from the drum.
 TEST_F(IdentifyCommand, RefusesAResultThatContradictsItself) {
   post::ChainParameters p = low_CA3500();
   p.k = 1e7;
@@ -322,10 +338,13 @@ TEST_F(IdentifyCommand, RefusesAResultThatContradictsItself) {
   post::write_files({{scratch_ / "soft.csv", text}});
   std::vector<std::string> words = {"soft.csv", "--phase", "90"};
   words.insert(words.end(), roller.begin(), roller.end());
-  expect_refused(words, "soft.csv: c is -8.");
+  expect_refused(words, "soft.csv: the sign of a_drum and a_frame is 'as given'; allowed: the other one");
+  words = {"soft.csv", "--phase", "20"};
+  words.insert(words.end(), roller.begin(), roller.end());
+  expect_refused(words, "soft.csv: k is ");
   std::vector<std::string> anyway = words;
   anyway.insert(anyway.end(), {"--anyway", "--out", "found"});
-  EXPECT_TRUE(printed(well(identify(anyway)), "The result contradicts itself: c is -8."));
+  EXPECT_TRUE(printed(well(identify(anyway)), "The result contradicts itself: k is "));
 }
 
 // Without the frame's acceleration it follows through the bond, here the roller's own; the answer has no more
@@ -356,7 +375,7 @@ TEST_F(IdentifyCommand, NeedsNoSensorOnTheFrame) {
   const auto by_hand = k_of({"--k23", std::to_string(p.k23), "--c23", std::to_string(p.c23)}, "known to 0 %");
   EXPECT_NEAR(by_hand.first, p.k, 1e-3 * p.k);
   const auto unknown = k_of({}, "known to 30 %");
-  EXPECT_GE(unknown.second, exact.second);
+  EXPECT_GE(unknown.second, 0.999 * exact.second);
   EXPECT_EQ(k_of({"--bond-tolerance", "30"}, "known to 30 %"), unknown);
   words.insert(words.end(), {"--bond-tolerance", "101"});
   expect_refused(words, "--bond-tolerance is '101'; allowed: ");

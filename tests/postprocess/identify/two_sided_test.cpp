@@ -188,6 +188,31 @@ TEST(TwoSided, IntervalsContainTheTruthWhereEndsLoseContact) {
   EXPECT_LT(coverage.median_width(), 3e-3);
 }
 
+// A sensor of one end, or of the frame, that is mounted upside down is refused by its name.
+TEST(TwoSided, FindsTheSensorThatIsTurned) {
+  std::mt19937_64 random(46);
+  TwoEnds machine = axas();
+  set_soil(machine, 50e6, 1.6, 0.3, 0.3);
+  const Made right = measured(machine, 40, 40, 0.02 * g0, true, random);
+  for (const auto &[name, turned] :
+       {std::pair{"a_left", &Record::a_left}, std::pair{"a_right", &Record::a_right},
+        std::pair{"a_frame", &Record::a_frame}}) {
+    Record record = right.record;
+    for (double &a : record.*turned)
+      a = -a;
+    for (std::size_t i = 0; i < record.size(); ++i)
+      record.a_drum[i] = 0.5 * (record.a_left[i] + record.a_right[i]);
+    try {
+      identified(record, machine, 1.01, 0.0, pi / 60.0);
+      ADD_FAILURE() << name << " is taken";
+    } catch (const std::runtime_error &error) {
+      const std::string expected =
+          std::string("the sign of ") + name + " is 'as given'; allowed: the other one";
+      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+    }
+  }
+}
+
 // In unbroken contact the phase has to be known, and says how sure the rest is.
 TEST(TwoSided, IntervalsContainTheTruthInUnbrokenContact) {
   std::mt19937_64 random(45);
