@@ -110,12 +110,11 @@ struct Reading {
                            std::string_view allowed) const {
     csv_refusal(record.file, 0, header_of(values), found, allowed);
   }
-  /// Refuses a time; `row` counts over all files.
+  /// Refuses a time, as its file has it; `row` counts over all files.
   [[noreturn]] void refuse_time(std::size_t row, const std::string &allowed) const {
     const auto next = std::upper_bound(starts.begin(), starts.end(), row);
     const auto i = static_cast<std::size_t>(next - starts.begin() - 1);
-    const std::size_t line = tables[i].line(row - starts[i]);
-    csv_refusal(tables[i].file(), line, time_header, fmt::format("{}", times[row]), allowed);
+    tables[i].refuse(row - starts[i], tables[i].find(time_header).value(), allowed);
   }
   std::vector<double> times; ///< of all rows [s]; empty without a column of time
 };
@@ -304,7 +303,7 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
 
 /// Reads all rows of all files; blank cells are NaN.
 void read_samples(const std::vector<fs::path> &files, Reading &reading, const RecordOptions &options) {
-  std::optional<long> first_day;
+  ClockDays days;
   std::size_t rows = 0;
   bool clocks = false;
   for (const fs::path &file : files) {
@@ -315,7 +314,7 @@ void read_samples(const std::vector<fs::path> &files, Reading &reading, const Re
     for (const Taken &column : columns_to_take(table, options, reading)) {
       const bool clock = column.into == &reading.times && table.has_clock_times(column.place);
       const std::vector<double> values =
-          clock ? table.clock_times(column.place, first_day) : table.numbers(column.place);
+          clock ? table.clock_times(column.place, days) : table.numbers(column.place);
       clocks = clocks || clock;
       for (std::size_t row = 0; row < values.size(); ++row) {
         if (of_run && std::isnan(values[row])) table.refuse(row, column.place, "a finite number");
@@ -387,7 +386,7 @@ std::vector<SampleRange> pieces_of(const Reading &reading, const RecordOptions &
       const double before = reading.times[row - 1], step = reading.times[row] - before;
       if (step < 0.0 || (step == 0.0 && !options.sampling_rate))
         reading.refuse_time(
-            row, fmt::format("more than {} of the row before{}", before,
+            row, fmt::format("a later time than in the row before{}",
                              step < 0.0 ? "" : ", or equal times together with the sampling rate"));
       if (step > gap) {
         if (is_of_run(reading.record.file))
@@ -462,10 +461,10 @@ void check_steps(const Reading &reading, double interval, bool rate_given) {
         (rate_given ? 1e-3 * length + std::max(interval, digit) : tolerance * interval))
       reading.refuse_time(
           reading.first + row,
-          rate_given ? fmt::format("{:g} to one sample, as the sampling rate says", place)
-                     : fmt::format("equal steps: {} to {:g} % of the step of {:g} s, or times with few "
-                                   "digits together with the sampling rate",
-                                   place, 100.0 * tolerance, interval));
+          rate_given ? std::string("the time that follows from the sampling rate, to one sample")
+                     : fmt::format("equal steps of {:g} s to {:g} % of it, or times with few digits together "
+                                   "with the sampling rate",
+                                   interval, 100.0 * tolerance));
   }
 }
 

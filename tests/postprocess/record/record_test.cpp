@@ -212,6 +212,18 @@ TEST_F(RecordFiles, ClockTimesCountFromTheFirstRow) {
   EXPECT_EQ(exact.a_drum, history_.a_drum);
   RecordOptions options;
   EXPECT_TRUE(
+  // The logger begins a new file at midnight.
+  const std::string all = clock(7);
+  const std::size_t midnight = all.find("00:00:");
+  const std::vector<fs::path> days = {put("first.csv", all.substr(0, midnight)),
+                                      put("second.csv", "time,a_drum\n" + all.substr(midnight))};
+  EXPECT_EQ(read_record(days).time, exact.time);
+  EXPECT_EQ(read_record(days).a_drum, exact.a_drum);
+  EXPECT_TRUE(
+      contains(error_of<std::exception>([&] {
+                 read_record({days[0], days[0]});
+               }),
+               {"first.csv, line 2, column 'time' is '23:59:59.9", "a later time than in the row before"}));
       contains(error_of<std::exception>([&] { read_record(put("clock.csv", clock(0))); }), "sampling rate"));
   options.sampling_rate = 2000.0;
   EXPECT_EQ(read_record(put("clock.csv", clock(0)), options).a_drum, history_.a_drum);
@@ -236,7 +248,7 @@ TEST_F(RecordFiles, TimesMayScatter) {
   for (std::size_t i = 0; i < record.size(); ++i)
     EXPECT_NEAR(record.time[i], history_.time[i], 1e-3 * 0.0005);
   EXPECT_EQ(record.a_drum.size(), record.size());
-  EXPECT_TRUE(contains(error_of<std::exception>([&] { read(0.1); }), "equal steps: "));
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read(0.1); }), "equal steps of "));
 }
 
 TEST_F(RecordFiles, RefusesTimes) {
