@@ -153,14 +153,17 @@ void take_number(const Record &record, const fs::path &file, const char *name, s
 
 /// Takes over parameters.csv of the run, if there is one.
 void take_parameters(Record &record) {
-  if (!is_of_run(record.file)) return;
-  record.phase = 0.0;
+  record.of_run = is_of_run(record.file);
+  if (!record.of_run) return;
   const fs::path file = record.file.parent_path() / "parameters.csv";
   if (!fs::is_regular_file(file)) return;
   record.parameters = read_parameters(file);
   for (const auto &[name, value] :
        {std::pair{"omega", &record.omega}, std::pair{"Fw", &record.Fw}, std::pair{"m2", &record.m2},
+  record.phase = 0.0;
         std::pair{"m3", &record.m3}, std::pair{"g", &record.g}})
+  record.known_origin = record.file.filename() == "chain.csv" &&
+                        record.parameters.count("D") + record.parameters.count("way") > 0;
     take_number(record, file, name, *value);
   for (const auto &[name, value] : {std::pair{"omega", record.omega}, std::pair{"m2", record.m2}})
     if (value && !(*value > 0.0))

@@ -60,6 +60,10 @@ struct Record : ChainHistory {
       parameters; ///< parameters.csv of the run as it stands, and the bond of a roller file; empty without
 
   double interval = 0.0; ///< between samples [s]
+  bool of_run = false; ///< of the files of a run, not measured
+  /// x_drum = 0 is where drum and soil just touch: of the run of a chain, whose parameters.csv has D or way.
+  bool known_origin = false;
+
 
   std::vector<RecordPiece> pieces; ///< of a measured file, which gaps and blank cells divide
   std::size_t piece = 0;           ///< the one that was read, counted from 0

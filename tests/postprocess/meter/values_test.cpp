@@ -380,6 +380,7 @@ TEST(Meter, ModulusOfASliceIsThatOfTheDrum) {
   const auto slice = [&](double thickness, const std::string &dimension, const std::string &noted) {
     Record record;
     record.file = dimension.empty() ? "chain.csv" : "bed.csv";
+    record.known_origin = dimension.empty();
     record.omega = p.omega;
     record.interval = p.period() / 2000;
     record.time = exact.time;

@@ -75,6 +75,7 @@ TEST_F(RecordFiles, RunComesBackBitForBit) {
   EXPECT_EQ(record.omega, omega);
   EXPECT_EQ(record.phase, 0.0);
   EXPECT_EQ(record.m2, 2000.0);
+  EXPECT_TRUE(record.known_origin);
   EXPECT_EQ(record.m3, 1000.0);
   EXPECT_NEAR(record.cycles(), 6.0, 1e-9);
   EXPECT_TRUE(record.cycles_file.empty());
