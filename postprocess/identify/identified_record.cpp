@@ -277,6 +277,7 @@ IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &
                                      const std::function<void(const std::string &)> &progress) {
   IdentifiedRecord result;
   result.file = record.file;
+  result.part_read = record.part_read;
   result.known_origin = law.known_origin;
   const DrumSignals signals = signals_of(record, setting.accelerations_only);
   result.frequency = *record.omega / (2.0 * pi);

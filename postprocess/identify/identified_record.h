@@ -44,6 +44,7 @@ struct MachinePart {
 /// What a record says.
 struct IdentifiedRecord {
   std::filesystem::path file;
+  std::string part_read;  ///< as Record has it
   double frequency = 0.0; ///< of the excitation [Hz]
   double cycles = 0.0;
   bool known_origin = false;

@@ -350,6 +350,7 @@ void write_identification_page(const std::filesystem::path &out, const Identifie
       "The contact force follows from the equations of motion, F = m2 a2 + m3 a3 + (m2 + m3) g + Fe. While "
       "drum and soil touch, the law is F = -k x - c v, with x and v the integrals of the measured "
       "acceleration from the start of each contact and their two integration constants as unknowns. k, c, "
+  if (!record.part_read.empty()) page.answer("Of the file " + record.part_read + ".");
       "the phase of the exciter and these constants minimize the squared residuals of force, position and "
       "velocity together, each weighted by its own scatter. Confidence intervals allow any correlation of "
       "the residuals within a contact (or a cycle of one that lasts longer). They cover scatter and the "

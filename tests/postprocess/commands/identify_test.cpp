@@ -3,6 +3,7 @@
 #include "runs/chain_files.h"
 #include "runs/parameter_file.h"
 #include "support/csv.h"
+#include "tests/support/changing_roller.h"
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/lines.h"
@@ -218,6 +219,7 @@ TEST_F(IdentifyCommand, AnswersForOneSettingOfTheExciter) {
   EXPECT_NEAR(k_of({"--me-re", "7.38"}, "it is piece 1 of 2"), 40e6, 0.01 * 40e6);
   EXPECT_NEAR(k_of({"--me-re", "3.95", "--piece", "2"}, "it is piece 2 of 2"), 40e6, 0.02 * 40e6);
 }
+TEST_F(IdentifyCommand, DrawsTheChainOverTheRecord) {
 
   write_run(scratch_ / "run");
   EXPECT_TRUE(printed(well(identify({"run", "--compare", "--out", "found"})),

@@ -412,6 +412,23 @@ TEST(Meter, ModulusOfASliceIsThatOfTheDrum) {
                                  "force is that of the whole drum, 2.13 m wide.");
 }
 
+// Three times the exciter's force would belong to a soil of negative stiffness, a turned one to one that
+// drives the drum.
+TEST(Meter, AStiffnessThatContradictsItselfIsNone) {
+  const Record record = record_of(table1_case("I", Transition::B), 60, 200);
+  const MeterWindow right = last_window(record);
+  ASSERT_TRUE(right.k_B && right.k_1 && right.c_1);
+  for (const double factor : {3.0, -1.0}) {
+    Record wrong = record;
+    for (double &force : wrong.F_excitation)
+      force *= factor;
+    const MeterWindow window = last_window(wrong);
+    EXPECT_FALSE(window.k_1 || window.c_1);
+    EXPECT_EQ(window.k_B.has_value(), factor < 0.0);
+    EXPECT_TRUE(window.cmv);
+  }
+}
+
 TEST(Meter, WindowsEndWithTheRecord) {
   const MeterRecord record = meter_cycles(synthetic(50.0, 47, {{1.0, 40.0}}));
   const std::vector<MeterWindow> windows = meter_windows(record, {});
