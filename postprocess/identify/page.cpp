@@ -82,6 +82,26 @@ std::string source_sentence(const IdentifiedRecord &record) {
   return text;
 }
 
+/// Which k to report where windows say another one: they follow single contacts.
+std::string report_sentence(const IdentifiedRecord &record) {
+  double sum = 0.0, count = 0.0;
+  for (const LawWindow &window : record.windows)
+    if (window.law) {
+      sum += window.law->k.mean;
+      count += 1.0;
+    }
+  if (!record.motion || count == 0.0) return {};
+  const double of_windows = sum / count, off = of_windows / record.whole.law.k.mean - 1.0;
+  constexpr double told = 0.01;
+  return "Report these values, of the whole record." +
+         (std::fabs(off) < told
+              ? std::string()
+              : fmt::format(
+                    " Its windows, which follow single contacts, have k = {:.4g} MN/m in the mean, {:+.1f} "
+                    "%: a low-pass of the logger, even a mild one, explains it (--logger-low-pass).",
+                    of_windows / 1e6, 100.0 * off));
+}
+
 struct Row {
   std::string name;
   double begin, end;
@@ -250,6 +270,7 @@ std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
           ? std::string("The exciter's phase counts as exact.")
           : fmt::format("Error of the exciter's phase: {} degrees.", with_interval(law.phase, 1.0 / degrees)),
       source_sentence(record)};
+  if (const std::string report = report_sentence(record); !report.empty()) lines.push_back(report);
   if (phase_decides(record))
     lines.emplace_back(
         "Contact is not lost and no position from the point of first contact is known: an error of the phase "
@@ -329,6 +350,7 @@ void write_identification_page(const std::filesystem::path &out, const Identifie
   Page page(out, "What the record says of the soil", bed ? Drawing::bed : Drawing::chain);
   page.answer(
       fmt::format("{}, {:.4g} cycles at {:.4g} Hz.", record.file.string(), record.cycles, record.frequency));
+  if (!record.part_read.empty()) page.answer("Of the file " + record.part_read + ".");
   if (!roller.empty()) page.answer(roller);
   for (const std::string &line : identification_answer(record))
     page.answer(line.back() == '.' ? line : line + ".");
@@ -350,7 +372,6 @@ void write_identification_page(const std::filesystem::path &out, const Identifie
       "The contact force follows from the equations of motion, F = m2 a2 + m3 a3 + (m2 + m3) g + Fe. While "
       "drum and soil touch, the law is F = -k x - c v, with x and v the integrals of the measured "
       "acceleration from the start of each contact and their two integration constants as unknowns. k, c, "
-  if (!record.part_read.empty()) page.answer("Of the file " + record.part_read + ".");
       "the phase of the exciter and these constants minimize the squared residuals of force, position and "
       "velocity together, each weighted by its own scatter. Confidence intervals allow any correlation of "
       "the residuals within a contact (or a cycle of one that lasts longer). They cover scatter and the "
