@@ -24,7 +24,9 @@ constexpr double window = 4.0; // cycles; with Hann's weights lines of half the 
 Line line_of(const std::vector<double> &signal, double interval, double nominal) {
   Line line;
   const double cycle = 2.0 * pi / nominal / interval; // samples
-  for (std::size_t n = 0; (static_cast<double>(n) + window) * cycle <= static_cast<double>(signal.size());
+  constexpr double fewest = 2.0;
+  for (std::size_t n = 0;
+       cycle >= fewest && (static_cast<double>(n) + window) * cycle <= static_cast<double>(signal.size());
        ++n) {
     const double begin = static_cast<double>(n) * cycle, end = begin + window * cycle;
     double weights = 0.0, mean = 0.0, squares = 0.0;
@@ -169,7 +171,7 @@ bool changes_slowly(const Line &line, const Windows &part) {
 std::vector<Stretch> stretches_of(const std::vector<double> &signal, double interval, double nominal) {
   const Line line = line_of(signal, interval, nominal);
   const Windows all = {0, line.size.size()};
-  if (all.end == 0) return {{0, signal.size(), nominal}};
+  if (all.end == 0) return {{0, signal.size(), nominal}}; // too short, or of too few samples per cycle
   // The exciter is on where its line is a part of the signal, and of the size that it has elsewhere.
   constexpr double most_of_them = 0.95, least_share = 0.1;
   const double least = quantile(line.size, most_of_them) + std::log(0.25);
