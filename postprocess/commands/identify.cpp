@@ -299,12 +299,12 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
                      "show a result that contradicts itself, or of a filtered record");
   identify->add_flag("--compare", arguments->compare,
                      "solve the chain with this k and D, and draw it over the record: acceleration, force "
-                     "loop, share of contact, CMV, with what a spring and a dashpot cannot do; needs the "
-                     "bond, from parameters.csv of a run or --roller");
-  text_option(
-      identify, "--origin", "WORD", arguments->origin,
-      "known: x_drum = 0 is where drum and soil just touch (chain.csv); free: unknown, for each contact (all "
-      "others)");
+                     "loop, share of contact, CMV, with what a spring and a dashpot cannot do; of a run, "
+                     "whose parameters.csv or --roller gives the bond");
+  text_option(identify, "--origin", "WORD", arguments->origin,
+              "known: x_drum = 0 is where drum and soil just touch; free: unknown, for each contact; if not "
+              "given known "
+              "for the run of a chain whose parameters.csv has D or way");
   text_option(
       identify, "--phase-within", "NUMBER", arguments->phase_within,
       "largest error of the exciter's phase [degrees], 0 to 20: the phase is then fitted as far as the "
@@ -312,7 +312,8 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
   text_option(
       identify, "--least-force", "NUMBER", arguments->least_force,
       "forces up to this share of the largest one [%] are not fitted, unless the law follows them, 0 to 90; "
-      "if not given 0 for chain.csv, 20 for all others, since soil that a drum just touches is softer");
+      "if not given 0 for the run of a chain, 20 for all others, since soil that a drum just touches is "
+      "softer");
   for (const auto &[name, into, what] :
        {std::tuple{"--m2-tolerance", &arguments->m2_tolerance, "the mass of the drum"},
         std::tuple{"--m3-tolerance", &arguments->m3_tolerance, "the mass of the frame"},

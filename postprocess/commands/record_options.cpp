@@ -206,8 +206,10 @@ void add_record_options(CLI::App &command, RecordArguments &arguments) {
       "the low-pass filter of the logger: corner frequency [Hz] and order of a Butterworth filter, such "
       "as 200,4; what it has taken is given back, and identify fits what it lets pass")
       ->group("Measured records");
-  of_file("--piece", arguments.piece,
-          "which piece of a file with gaps or blank cells, counted from 1; the longest if not given");
+  of_file(
+      "--piece", arguments.piece,
+      "which piece of a file that gaps, blank cells, or an exciter that is off or changes divide, counted "
+      "from 1; the longest if not given");
   for (const RecordNumber &number : record_numbers)
     text_option(&command, number.name, "NUMBER", arguments.*number.text, number.help)
         ->group("Measured records");

@@ -150,6 +150,11 @@ std::optional<std::string> contradiction(const IdentifiedRecord &record) {
   if (negative(law.c) || law.D.mean < rounding)
     return fmt::format("c is {:.4g} +- {:.2g} N s/m, and no soil drives the drum; to be checked: {}",
                        law.c.mean, law.c.half_width, causes);
+  constexpr double least_r2 = 0.5;
+  if (!record.motion && law.r2 < least_r2)
+    return fmt::format("R2 is {:.3f}: a spring and a dashpot explain too little of the force; to be checked: "
+                       "{}, and --origin",
+                       law.r2, causes);
   constexpr double poor = 0.9; // R2 of a law that does not follow the tension that it is said to have
   if (record.whole.pull == Pull::pulls && law.r2 < poor)
     return fmt::format(
@@ -262,6 +267,7 @@ IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &
                                      const std::function<void(const std::string &)> &progress) {
   IdentifiedRecord result;
   result.file = record.file;
+  result.part_read = record.part_read;
   result.known_origin = law.known_origin;
   const DrumSignals signals = signals_of(record, setting.accelerations_only);
   result.frequency = *record.omega / (2.0 * pi);
@@ -330,12 +336,11 @@ bool tells_phase(const IdentifiedRecord &found) {
 
 IdentifiedRecord identify_from_any_phase(const Record &given, const RecordSetting &setting,
                                          const std::function<void(const std::string &)> &progress) {
-  const bool of_chain = given.file.filename() == "chain.csv";
   constexpr double usual_share = 0.2; // soil that a drum just touches is softer
   IdentificationSetting law;
   law.m2 = given.m2.value_or(0.0);
-  law.known_origin = setting.known_origin.value_or(of_chain);
-  law.least_force = setting.least_force.value_or(of_chain ? 0.0 : usual_share);
+  law.known_origin = setting.known_origin.value_or(given.known_origin);
+  law.least_force = setting.least_force.value_or(given.known_origin ? 0.0 : usual_share);
   if (given.F_excitation.empty()) {
     Record record = given;
     if (find_phase(record, law)) {

@@ -16,11 +16,11 @@ namespace drumlin::post {
 /// How a record is identified.
 struct RecordSetting {
   bool accelerations_only = false; ///< positions and velocities of the record are not used
-  /// Whether x_drum = 0 is where drum and soil just touch; not given: yes for chain.csv, else no.
+  /// Whether x_drum = 0 is where drum and soil just touch; not given: as the record says.
   std::optional<bool> known_origin;
   /// Largest error of the exciter's phase [rad], as in IdentificationSetting.
   double phase_within = 0.0;
-  /// Share of the largest force as in IdentificationSetting; not given: 0 for chain.csv, 0.2 for others.
+  /// Share of the largest force as in IdentificationSetting; not given: 0 with a known origin, else 0.2.
   std::optional<double> least_force;
   int window = 10; ///< cycles, 4 or more; 0: no windows
   /// As in MotionSetting.
@@ -46,6 +46,7 @@ struct MachinePart {
 /// What a record says.
 struct IdentifiedRecord {
   std::filesystem::path file;
+  std::string part_read;  ///< as Record has it
   double frequency = 0.0; ///< of the excitation [Hz]
   double cycles = 0.0;
   bool known_origin = false;

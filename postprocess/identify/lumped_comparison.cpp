@@ -348,6 +348,10 @@ PageTable comparison_table(const std::vector<LumpedComparison> &records) {
 } // namespace
 
 void require_comparable(const Record &record) {
+  if (!record.of_run)
+    throw std::runtime_error(refusal("--compare", record.file.string(),
+                                     "the record of a run: a measured one has no positions of the drum, and "
+                                     "its phase, which the chain's would have to follow, has an error"));
   if (record.a_drum.empty() || soil_force(record).empty() || record.F_excitation.empty())
     throw std::runtime_error(fmt::format("{}: {}", record.file.string(),
                                          refusal("the record", "without samples of drum, force or excitation",

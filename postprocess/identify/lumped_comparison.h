@@ -54,10 +54,10 @@ struct LumpedComparison {
   bool differs(CycleQuantity quantity) const;
 };
 
-/// Checks that a record has what compare_lumped() needs besides the identified k and D: samples of the drum's
-/// acceleration, of the contact force and of the exciter's force, and Fw, k23 and c23 in its parameters.csv.
-/// Call it before the identification, which takes longer. Throws std::runtime_error, with a message of one
-/// line, if something is missing.
+/// Checks that a record is that of a run and has what compare_lumped() needs besides the identified k and D:
+/// samples of the drum's acceleration, of the contact force and of the exciter's force, and Fw, k23 and c23
+/// in its parameters.csv. Call it before the identification, which takes longer. Throws std::runtime_error,
+/// with a message of one line, if something is missing.
 void require_comparable(const Record &record);
 
 /// Solves the chain of the record's roller with the identified k and D, in closed form, until its motion is

@@ -93,6 +93,26 @@ std::string source_sentence(const IdentifiedRecord &record) {
   return text;
 }
 
+/// Which k to report where windows say another one: they follow single contacts.
+std::string report_sentence(const IdentifiedRecord &record) {
+  double sum = 0.0, count = 0.0;
+  for (const LawWindow &window : record.windows)
+    if (window.law) {
+      sum += window.law->k.mean;
+      count += 1.0;
+    }
+  if (!record.motion || count == 0.0) return {};
+  const double of_windows = sum / count, off = of_windows / record.whole.law.k.mean - 1.0;
+  constexpr double told = 0.01;
+  return "Report these values, of the whole record." +
+         (std::fabs(off) < told
+              ? std::string()
+              : fmt::format(
+                    " Its windows, which follow single contacts, have k = {:.4g} MN/m in the mean, {:+.1f} "
+                    "%: a low-pass of the logger, even a mild one, explains it (--logger-low-pass).",
+                    of_windows / 1e6, 100.0 * off));
+}
+
 struct Row {
   std::string name;
   double begin, end;
@@ -257,6 +277,7 @@ std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
           ? std::string("The exciter's phase counts as exact.")
           : fmt::format("Error of the exciter's phase: {} degrees.", with_interval(law.phase, 1.0 / degrees)),
       source_sentence(record)};
+  if (const std::string report = report_sentence(record); !report.empty()) lines.push_back(report);
   if (phase_decides(record))
     lines.emplace_back(
         "Contact is not lost and no position from the point of first contact is known: an error of the phase "
@@ -336,6 +357,7 @@ void write_identification_page(const std::filesystem::path &out, const Identifie
   Page page(out, "What the record says of the soil", bed ? Drawing::bed : Drawing::chain);
   page.answer(
       fmt::format("{}, {:.4g} cycles at {:.4g} Hz.", record.file.string(), record.cycles, record.frequency));
+  if (!record.part_read.empty()) page.answer("Of the file " + record.part_read + ".");
   if (!roller.empty()) page.answer(roller);
   for (const std::string &line : identification_answer(record))
     page.answer(line.back() == '.' ? line : line + ".");

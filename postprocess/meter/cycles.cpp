@@ -189,7 +189,6 @@ private:
 
   void add_deflections() {
     const std::vector<double> &x = record_.x_drum;
-    const bool of_chain = record_.file.filename() == "chain.csv";
     std::vector<std::optional<std::size_t>> lowest(cycles_.size());
     for_each_part(record_, cycles_.size(), [&](const Part &part) {
       if (part.from == 0.0 && (!lowest[part.cycle] || x[part.row] < x[*lowest[part.cycle]]))
@@ -203,8 +202,8 @@ private:
       while (begin > least && touches(begin))
         --begin;
       const bool begins = !touches(begin);
-      if (!begins && !of_chain) continue;
-      const double zero = of_chain ? 0.0 : 0.5 * (x[begin] + x[begin + 1]);
+      if (!begins && !record_.known_origin) continue;
+      const double zero = record_.known_origin ? 0.0 : 0.5 * (x[begin] + x[begin + 1]);
       cycles_[i].deflection = zero - x[*lowest[i]];
       cycles_[i].low_force = force_[*lowest[i]];
     }

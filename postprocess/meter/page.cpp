@@ -393,6 +393,7 @@ void write_meter_page(const std::filesystem::path &folder, const MeterResult &re
   const MeterWindow &last = result.windows.back();
   page.answer(fmt::format("In the last {} cycles, at {:.4g} Hz: {}.", result.options.window,
                           result.cycles.omega / (2.0 * pi), answer_line(result)));
+  if (!result.record.part_read.empty()) page.answer("Of the file " + result.record.part_read + ".");
   if (const std::string words = roller_words(result.record.parameters); !words.empty()) page.answer(words);
   page.answer(source_words(result));
   for (const std::string &words : {width_words(result), averaging_words(result)})

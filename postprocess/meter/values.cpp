@@ -111,10 +111,12 @@ void take_stiffness(const MeterRecord &record, std::size_t count, MeterWindow &w
   if (!record.m2 || !excitation || std::abs(a) == 0.0) return;
   const std::complex<double> x = -a / squared;
   const std::complex<double> from_drum = *record.m2 * a + *excitation; // soil force without that of the frame
-  window.k_B = -(from_drum / x).real();
+  // No soil has a negative stiffness or damping: then force or phase are not those of the record.
+  if (const double k_B = -(from_drum / x).real(); k_B > 0.0) window.k_B = k_B;
   const std::optional<std::complex<double>> frame = mean_of(record.cycles, window, count, &MeterCycle::frame);
   if (!record.m3 || !frame) return;
   const std::complex<double> stiffness = -(from_drum + *record.m3 * *frame) / x;
+  if (!(stiffness.real() > 0.0 && stiffness.imag() >= 0.0)) return;
   window.k_1 = stiffness.real();
   window.c_1 = stiffness.imag() / record.omega;
 }

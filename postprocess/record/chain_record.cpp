@@ -4,7 +4,9 @@ namespace drumlin::post {
 
 Record chain_record(const ChainParameters &parameters, const ChainHistory &history, int every) {
   Record record;
-  record.file = "chain.csv"; // x_drum counts from where drum and soil touch
+  record.file = "chain.csv";
+  record.of_run = true;
+  record.known_origin = true;
   record.interval =
       every * (history.time.back() - history.time.front()) / static_cast<double>(history.size() - 1);
   for (const HistoryColumn &column : history_columns) {

@@ -3,6 +3,7 @@
 #include "chain/contact_phases.h"
 #include "chain/linear_algebra.h"
 #include "record/both_ends.h"
+#include "record/sensor_range.h"
 #include "support/csv.h"
 #include "support/range.h"
 
@@ -421,32 +422,6 @@ const std::vector<double> &drum_signal(const Record &record) {
          : !record.v_drum.empty() ? record.v_drum
          : !record.x_drum.empty() ? record.x_drum
                                   : record.F_contact;
-}
-
-/// Refuses an acceleration that stands still, or at the limit of its sensor.
-void check_range(const Record &record, const std::vector<double> &values, const char *name) {
-  if (values.empty()) return;
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  if (*least == *most)
-    csv_fault(record.file, 0, {}, refusal(name, *least, "values that change; this is the same in every row"));
-  // A signal rarely has its largest value three times in a row unless it is cut there, or its steps are
-  // coarse.
-  double step = *most - *least;
-  for (std::size_t i = 1; i < values.size(); ++i)
-    if (values[i] != values[i - 1]) step = std::min(step, std::fabs(values[i] - values[i - 1]));
-  constexpr double fine = 200.0; // steps from end to end
-  if (*most - *least < fine * step) return;
-  std::size_t cut = 0;
-  for (std::size_t i = 2; i < values.size(); ++i)
-    for (const double limit : {*least, *most})
-      if (values[i] == limit && values[i - 1] == limit && values[i - 2] == limit) ++cut;
-  constexpr double rare = 0.002; // of the samples
-  if (static_cast<double>(cut) > std::max(3.0, rare * static_cast<double>(values.size())))
-    csv_fault(
-        record.file, 0, {},
-        refusal(name,
-                fmt::format("{:.6g} to {:.6g} m/s2, again and again for several samples", *least, *most),
-                "a signal within the range of its sensor, which this one reaches"));
 }
 
 void take_frequency(Record &record) {
@@ -938,12 +913,9 @@ void compute_frame(Record &record) {
 }
 
 void settle_excitation(Record &record, const RecordOptions &options) {
+  check_sensors(record);
   if (record.excitation_read) compute_frame(record);
   if (record.time.empty() || !options.omega || record.excitation_read || record.pieces.empty()) return;
-  check_range(record, record.a_drum, "a_drum");
-  check_range(record, record.a_frame, "a_frame");
-  check_range(record, record.a_left, "a_left");
-  check_range(record, record.a_right, "a_right");
   if (record.pulse.empty())
     take_frequency(record);
   else

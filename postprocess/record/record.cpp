@@ -1,5 +1,7 @@
 #include "record/record.h"
 
+#include "record/excitation.h"
+#include "record/stretches.h"
 #include "runs/parameter_file.h"
 #include "support/csv.h"
 #include "support/range.h"
@@ -90,6 +92,7 @@ double mean(const std::vector<double> &values) {
 /// Rows from `first` to before `end`.
 struct SampleRange {
   std::size_t first, end;
+  double frequency = 0.0; ///< as in RecordPiece
 };
 
 /// A record being read, with what its messages name.
@@ -110,12 +113,11 @@ struct Reading {
                            std::string_view allowed) const {
     csv_refusal(record.file, 0, header_of(values), found, allowed);
   }
-  /// Refuses a time; `row` counts over all files.
+  /// Refuses a time, as its file has it; `row` counts over all files.
   [[noreturn]] void refuse_time(std::size_t row, const std::string &allowed) const {
     const auto next = std::upper_bound(starts.begin(), starts.end(), row);
     const auto i = static_cast<std::size_t>(next - starts.begin() - 1);
-    const std::size_t line = tables[i].line(row - starts[i]);
-    csv_refusal(tables[i].file(), line, time_header, fmt::format("{}", times[row]), allowed);
+    tables[i].refuse(row - starts[i], tables[i].find(time_header).value(), allowed);
   }
   std::vector<double> times; ///< of all rows [s]; empty without a column of time
 };
@@ -154,11 +156,14 @@ void take_number(const Record &record, const fs::path &file, const char *name, s
 
 /// Takes over parameters.csv of the run, if there is one.
 void take_parameters(Record &record) {
-  if (!is_of_run(record.file)) return;
-  record.phase = 0.0;
+  record.of_run = is_of_run(record.file);
+  if (!record.of_run) return;
   const fs::path file = record.file.parent_path() / "parameters.csv";
   if (!fs::is_regular_file(file)) return;
+  record.phase = 0.0;
   record.parameters = read_parameters(file);
+  record.known_origin = record.file.filename() == "chain.csv" &&
+                        record.parameters.count("D") + record.parameters.count("way") > 0;
   for (const auto &[name, value] :
        {std::pair{"omega", &record.omega}, std::pair{"Fw", &record.Fw}, std::pair{"m2", &record.m2},
         std::pair{"m3", &record.m3}, std::pair{"g", &record.g}})
@@ -304,7 +309,7 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
 
 /// Reads all rows of all files; blank cells are NaN.
 void read_samples(const std::vector<fs::path> &files, Reading &reading, const RecordOptions &options) {
-  std::optional<long> first_day;
+  ClockDays days;
   std::size_t rows = 0;
   bool clocks = false;
   for (const fs::path &file : files) {
@@ -315,7 +320,7 @@ void read_samples(const std::vector<fs::path> &files, Reading &reading, const Re
     for (const Taken &column : columns_to_take(table, options, reading)) {
       const bool clock = column.into == &reading.times && table.has_clock_times(column.place);
       const std::vector<double> values =
-          clock ? table.clock_times(column.place, first_day) : table.numbers(column.place);
+          clock ? table.clock_times(column.place, days) : table.numbers(column.place);
       clocks = clocks || clock;
       for (std::size_t row = 0; row < values.size(); ++row) {
         if (of_run && std::isnan(values[row])) table.refuse(row, column.place, "a finite number");
@@ -387,7 +392,7 @@ std::vector<SampleRange> pieces_of(const Reading &reading, const RecordOptions &
       const double before = reading.times[row - 1], step = reading.times[row] - before;
       if (step < 0.0 || (step == 0.0 && !options.sampling_rate))
         reading.refuse_time(
-            row, fmt::format("more than {} of the row before{}", before,
+            row, fmt::format("a later time than in the row before{}",
                              step < 0.0 ? "" : ", or equal times together with the sampling rate"));
       if (step > gap) {
         if (is_of_run(reading.record.file))
@@ -404,14 +409,75 @@ std::vector<SampleRange> pieces_of(const Reading &reading, const RecordOptions &
   return pieces;
 }
 
+/// Divides pieces further where the exciter is off or changes. Its own force shows that, or else the drum.
+std::vector<SampleRange> steady_pieces(const Reading &reading, const std::vector<SampleRange> &pieces,
+                                       const RecordOptions &options) {
+  const Record &record = reading.record;
+  std::vector<double> ends; // the mean of sensors at both ends
+  for (std::size_t row = 0; row < std::min(record.a_left.size(), record.a_right.size()); ++row)
+    ends.push_back(0.5 * (record.a_left[row] + record.a_right[row]));
+  using Signal = const std::vector<double> *;
+  for (const Signal signal : std::array<Signal, 6>{&record.F_excitation, &record.a_drum, &ends,
+                                                   &record.v_drum, &record.x_drum, &record.F_contact}) {
+    if (signal->empty()) continue;
+    std::vector<SampleRange> steady;
+    for (const SampleRange &piece : pieces) {
+      const std::size_t count = piece.end - piece.first;
+      if (count < 2) continue;
+      const double interval =
+          options.sampling_rate
+              ? 1.0 / *options.sampling_rate
+              : (reading.times[piece.end - 1] - reading.times[piece.first]) / static_cast<double>(count - 1);
+      const auto begin = signal->begin() + static_cast<std::ptrdiff_t>(piece.first);
+      for (const Stretch &one :
+           stretches_of({begin, begin + static_cast<std::ptrdiff_t>(count)}, interval, *record.omega))
+        steady.push_back({piece.first + one.first, piece.first + one.end, one.omega / (2.0 * pi)});
+    }
+    if (steady.empty())
+      csv_fault(
+          record.file, 0, {},
+          refusal("the line of the exciter",
+                  fmt::format("nowhere a part of the motion near {:.6g} Hz", *record.omega / (2.0 * pi)),
+                  "a record with the exciter on, and its frequency"));
+    return steady;
+  }
+  return pieces;
+}
+
+std::string words_of_pieces(const Record &record) {
+  const auto words = [&record](std::size_t n) {
+    const auto &[begin, end, samples, frequency] = record.pieces[n];
+    return fmt::format("{:.6g} to {:.6g} s{}", begin, end,
+                       frequency > 0.0 ? fmt::format(" at {:.4g} Hz", frequency) : "");
+  };
+  const std::string cause =
+      record.omega ? "the exciter is off or changes, or rows are missing" : "rows are missing";
+  std::string text = "only " + words(record.piece) + " is read; ";
+  if (record.pieces.size() == 1) return text + "in the rest of the file " + cause;
+  text += fmt::format("it is piece {} of {}, between which {}; --piece takes another: ", record.piece + 1,
+                      record.pieces.size(), cause);
+  std::vector<std::string> others;
+  constexpr std::size_t most = 6;
+  for (std::size_t n = 0; n < record.pieces.size() && others.size() < most; ++n)
+    if (n != record.piece) others.push_back(fmt::format("{}, {}", n + 1, words(n)));
+  return text +
+         fmt::format("{}{}", fmt::join(others, "; "), record.pieces.size() > most + 1 ? "; and so on" : "");
+}
+
 /// Keeps one of the pieces.
 void take_piece(Reading &reading, const RecordOptions &options) {
   Record &record = reading.record;
-  const std::vector<SampleRange> pieces = pieces_of(reading, options);
+  std::vector<SampleRange> pieces = pieces_of(reading, options);
+  const std::vector<SampleRange> without_gaps = pieces;
+  if (record.omega && !record.of_run) pieces = steady_pieces(reading, pieces, options);
   const auto size = [](const SampleRange &piece) { return piece.end - piece.first; };
+  const auto near = [&record](const SampleRange &piece) {
+    return record.omega && std::fabs(2.0 * pi * piece.frequency / *record.omega - 1.0) < frequency_range;
+  };
   const auto longest =
-      std::max_element(pieces.begin(), pieces.end(),
-                       [&](const SampleRange &a, const SampleRange &b) { return size(a) < size(b); });
+      std::max_element(pieces.begin(), pieces.end(), [&](const SampleRange &a, const SampleRange &b) {
+        return std::pair(near(a), size(a)) < std::pair(near(b), size(b));
+      });
   constexpr std::size_t least = 3;
   if (pieces.empty() || size(*longest) < least)
     csv_fault(
@@ -430,17 +496,14 @@ void take_piece(Reading &reading, const RecordOptions &options) {
     const auto time = [&](std::size_t row) {
       return reading.times.empty() ? static_cast<double>(row) / *options.sampling_rate : reading.times[row];
     };
-    record.pieces.push_back({time(piece.first), time(piece.end - 1), size(piece)});
+    record.pieces.push_back({time(piece.first), time(piece.end - 1), size(piece), piece.frequency});
   }
   const SampleRange kept = pieces[record.piece];
   reading.first = kept.first;
   record.time = reading.times;
   keep_samples(record, kept.first, kept.end);
-  if (pieces.size() > 1)
-    record.notes.push_back(fmt::format("blank cells or gaps divide it into {} pieces; piece {} is read, from "
-                                       "{:.6g} to {:.6g} s (--piece takes another)",
-                                       pieces.size(), record.piece + 1, record.pieces[record.piece].begin,
-                                       record.pieces[record.piece].end));
+  if (without_gaps.size() > 1 || size(kept) < size(without_gaps.front()))
+    record.notes.push_back(record.part_read = words_of_pieces(record));
 }
 
 /// Share of a step up to which times may lie beside equally spaced ones; of a measured file they may scatter
@@ -462,10 +525,10 @@ void check_steps(const Reading &reading, double interval, bool rate_given) {
         (rate_given ? 1e-3 * length + std::max(interval, digit) : tolerance * interval))
       reading.refuse_time(
           reading.first + row,
-          rate_given ? fmt::format("{:g} to one sample, as the sampling rate says", place)
-                     : fmt::format("equal steps: {} to {:g} % of the step of {:g} s, or times with few "
-                                   "digits together with the sampling rate",
-                                   place, 100.0 * tolerance, interval));
+          rate_given ? std::string("the time that follows from the sampling rate, to one sample")
+                     : fmt::format("equal steps of {:g} s to {:g} % of it, or times with few digits together "
+                                   "with the sampling rate",
+                                   interval, 100.0 * tolerance));
   }
 }
 

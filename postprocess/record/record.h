@@ -18,11 +18,12 @@
 
 namespace drumlin::post {
 
-/// Rows of a measured file without a gap and without blank cells.
+/// Rows of a measured file without a gap, without blank cells, and with one setting of the exciter.
 struct RecordPiece {
   double begin = 0.0; ///< time of the first row [s]
   double end = 0.0;   ///< of the last one [s]
   std::size_t samples = 0;
+  double frequency = 0.0; ///< of the exciter there, to some per mille [Hz]; 0: not known
 };
 
 /// Tolerances of the data of a machine, relative but for the place; 0: exact.
@@ -60,10 +61,15 @@ struct Record : ChainHistory {
   std::map<std::string, std::string>
       parameters; ///< parameters.csv of the run as it stands, and the bond of a roller file; empty without
 
+  bool of_run = false; ///< of the files of a run, not measured
+  /// x_drum = 0 is where drum and soil just touch: of the run of a chain, whose parameters.csv has D or way.
+  bool known_origin = false;
+
   double interval = 0.0; ///< between samples [s]
 
-  std::vector<RecordPiece> pieces; ///< of a measured file, which gaps and blank cells divide
+  std::vector<RecordPiece> pieces; ///< of a measured file, those that read_record() finds
   std::size_t piece = 0;           ///< the one that was read, counted from 0
+  std::string part_read;           ///< says which part of the file was read; empty: all of it
   std::vector<std::string> notes;  ///< how a measured file was understood, line by line
 
   std::optional<double> omega; ///< angular frequency of the excitation [rad/s]
@@ -131,7 +137,7 @@ struct RecordOptions {
   /// named here, only those named here are read, and `time`.
   std::map<std::string, ColumnSource> columns;
   TableFormat format;                   ///< of a measured file; what is not given is found
-  std::optional<std::size_t> piece;     ///< counted from 1; not given: the one with the most samples
+  std::optional<std::size_t> piece;     ///< counted from 1; not given: the longest, near omega if one is
   std::optional<double> sampling_rate;  ///< [Hz]; needed without a column `time`, or if its digits are few
   std::optional<double> omega;          ///< angular frequency of the excitation [rad/s]
   std::optional<double> phase;          ///< of the excitation at time 0 [rad]
@@ -162,8 +168,8 @@ constexpr int least_samples = 8;
 /// - Given a cycles.csv, `cycles_file` is set and the record has no samples: `time` is empty.
 /// - parameters.csv in the same folder gives omega, Fw, m2, m3, g for files with those names.
 /// - Several measured files are one record: each continues the one before it.
-/// - A measured file is divided where cells are blank or times have a gap; one piece is read. Clock times
-/// count from the first row.
+/// - A measured file is divided where cells are blank or times have a gap, and, if omega is known, where the
+/// exciter is off or changes (stretches_of()); one piece is read. Clock times count from the first row.
 /// - a_left and a_right are the accelerations at both ends of the drum; a_drum is their mean if the file has
 /// none.
 /// - If the file has no F_excitation but omega, phase and Fw are known, F_excitation is computed.

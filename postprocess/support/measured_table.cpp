@@ -663,11 +663,10 @@ bool MeasuredTable::has_clock_times(std::size_t column) const {
   return false;
 }
 
-std::vector<double> MeasuredTable::clock_times(std::size_t column, std::optional<long> &first_day) const {
+std::vector<double> MeasuredTable::clock_times(std::size_t column, ClockDays &days) const {
   constexpr double day = 86400.0;
   std::vector<double> values;
   values.reserve(rows_.size());
-  double midnights = 0.0, before = 0.0;
   std::optional<bool> universal;
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     const std::string text = cell(row, column);
@@ -682,11 +681,11 @@ std::vector<double> MeasuredTable::clock_times(std::size_t column, std::optional
              *universal ? "a time with its zone, as the first one has"
                         : "a time without a zone, as the first one has");
     universal = clock->universal;
-    if (clock->day && !first_day) first_day = clock->day;
-    if (!clock->day && clock->seconds < before - 0.5 * day) midnights += day;
-    before = clock->seconds;
+    if (clock->day && !days.first) days.first = clock->day;
+    if (!clock->day && clock->seconds < days.before - 0.5 * day) days.midnights += day;
+    days.before = clock->seconds;
     values.push_back(clock->seconds +
-                     (clock->day ? day * static_cast<double>(*clock->day - *first_day) : midnights));
+                     (clock->day ? day * static_cast<double>(*clock->day - *days.first) : days.midnights));
   }
   return values;
 }

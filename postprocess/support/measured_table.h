@@ -31,6 +31,13 @@ struct MeasuredColumn {
   std::vector<std::string> others; ///< its texts in other rows of the header, such as names of sensors
 };
 
+/// The days of clock times, of several files one after the other.
+struct ClockDays {
+  std::optional<long> first; ///< of dates
+  double midnights = 0.0;    ///< that times without dates have passed [s]
+  double before = 0.0;       ///< the last of these times, from its midnight [s]
+};
+
 class MeasuredTable {
 public:
   /// Reads a file and finds out how it is written. The rows of numbers begin with the first line that has as
@@ -62,10 +69,9 @@ public:
   std::vector<double> numbers(std::size_t column) const;
   /// Whether the column has clock times, such as 14:03:07.25, with or without a date.
   bool has_clock_times(std::size_t column) const;
-  /// Clock times in seconds from the midnight before the first row; over midnight they go on growing. With
-  /// dates they count from `first_day`, which the first row sets if nothing has set it before. Those that
-  /// name their zone are turned into UTC.
-  std::vector<double> clock_times(std::size_t column, std::optional<long> &first_day) const;
+  /// Clock times in seconds from the midnight before the first row of all files that share `days`; over
+  /// midnight they go on growing. Those that name their zone are turned into UTC.
+  std::vector<double> clock_times(std::size_t column, ClockDays &days) const;
 
   /// Throws the fault that this cell is not allowed.
   [[noreturn]] void refuse(std::size_t row, std::size_t column, std::string_view allowed) const;

@@ -457,7 +457,7 @@ TEST_F(MeterCommand, TheExportedTableCanBeReadBack) {
   const MeasuredTable passes(folder_ / "passes.csv");
   ASSERT_EQ(passes.rows(), values.rows());
   ASSERT_TRUE(passes.find("LastTemp,_c").has_value());
-  std::optional<long> day;
+  ClockDays day;
   const std::vector<double> times = passes.clock_times(passes.find("Time").value(), day);
   const std::vector<double> cmv = passes.numbers(passes.find("LastCMV").value());
   for (std::size_t row = 0; row < cmv.size(); ++row) {

@@ -27,7 +27,8 @@ constexpr int cycles = 16, samples = 250;
 // The record as reading the files of a bed's run gives it.
 post::Record bed_record(const ChainParameters &p, const ChainHistory &history) {
   post::Record record = post::chain_record(p, history);
-  record.file = "bed.csv"; // where the drum touches the soil is not known
+  record.file = "bed.csv";
+  record.known_origin = false; // where the drum touches the soil is not known
   record.parameters = {{"k23", "1e6"}, {"c23", "1e4"}, {"Fw", std::to_string(p.Fw)}, {"transition", "B"}};
   return record;
 }

@@ -380,6 +380,7 @@ TEST(Meter, ModulusOfASliceIsThatOfTheDrum) {
   const auto slice = [&](double thickness, const std::string &dimension, const std::string &noted) {
     Record record;
     record.file = dimension.empty() ? "chain.csv" : "bed.csv";
+    record.known_origin = dimension.empty();
     record.omega = p.omega;
     record.interval = p.period() / 2000;
     record.time = exact.time;
@@ -409,6 +410,23 @@ TEST(Meter, ModulusOfASliceIsThatOfTheDrum) {
   result.options = options;
   EXPECT_EQ(width_words(result), "Forces, energy and stiffnesses are those of 1 m of the drum; for E_vib the "
                                  "force is that of the whole drum, 2.13 m wide.");
+}
+
+// Three times the exciter's force would belong to a soil of negative stiffness, a turned one to one that
+// drives the drum.
+TEST(Meter, AStiffnessThatContradictsItselfIsNone) {
+  const Record record = record_of(table1_case("I", Transition::B), 60, 200);
+  const MeterWindow right = last_window(record);
+  ASSERT_TRUE(right.k_B && right.k_1 && right.c_1);
+  for (const double factor : {3.0, -1.0}) {
+    Record wrong = record;
+    for (double &force : wrong.F_excitation)
+      force *= factor;
+    const MeterWindow window = last_window(wrong);
+    EXPECT_FALSE(window.k_1 || window.c_1);
+    EXPECT_EQ(window.k_B.has_value(), factor < 0.0);
+    EXPECT_TRUE(window.cmv);
+  }
 }
 
 TEST(Meter, WindowsEndWithTheRecord) {

@@ -6,6 +6,7 @@
 #include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/files.h"
+#include "tests/support/changing_roller.h"
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
@@ -74,6 +75,7 @@ TEST_F(RecordFiles, RunComesBackBitForBit) {
   EXPECT_DOUBLE_EQ(record.interval, 0.0005);
   EXPECT_EQ(record.omega, omega);
   EXPECT_EQ(record.phase, 0.0);
+  EXPECT_TRUE(record.known_origin);
   EXPECT_EQ(record.m2, 2000.0);
   EXPECT_EQ(record.m3, 1000.0);
   EXPECT_NEAR(record.cycles(), 6.0, 1e-9);
@@ -210,11 +212,55 @@ TEST_F(RecordFiles, ClockTimesCountFromTheFirstRow) {
   EXPECT_NEAR(exact.interval, 0.0005, 1e-9);
   EXPECT_EQ(exact.time.front(), 0.0);
   EXPECT_EQ(exact.a_drum, history_.a_drum);
+  // The logger begins a new file at midnight.
+  const std::string all = clock(7);
+  const std::size_t midnight = all.find("00:00:");
+  const std::vector<fs::path> days = {put("first.csv", all.substr(0, midnight)),
+                                      put("second.csv", "time,a_drum\n" + all.substr(midnight))};
+  EXPECT_EQ(read_record(days).time, exact.time);
+  EXPECT_EQ(read_record(days).a_drum, exact.a_drum);
+  EXPECT_TRUE(
+      contains(error_of<std::exception>([&] {
+                 read_record({days[0], days[0]});
+               }),
+               {"first.csv, line 2, column 'time' is '23:59:59.9", "a later time than in the row before"}));
   RecordOptions options;
   EXPECT_TRUE(
       contains(error_of<std::exception>([&] { read_record(put("clock.csv", clock(0))); }), "sampling rate"));
   options.sampling_rate = 2000.0;
   EXPECT_EQ(read_record(put("clock.csv", clock(0)), options).a_drum, history_.a_drum);
+}
+
+// Of a file whose exciter changes the longest stretch is read, another one by its number, and the rest is
+// told.
+TEST_F(RecordFiles, AChangeOfTheExciterDividesIt) {
+  ChangingRoller roller;
+  roller.me_re = [](double t) { return t < 1.0 || t > 11.0 ? 0.0 : t < 7.0 ? 7.38 : 3.95; };
+  const SeenMotion seen = seen_motion(roller, 1000.0, 12.0, 0.1, 1);
+  std::string text = "time,a_drum\n";
+  for (std::size_t i = 0; i < seen.time.size(); ++i)
+    text += csv_line({number_text(seen.time[i]), number_text(seen.a_drum[i])});
+  const fs::path file = put("pass.csv", text);
+  RecordOptions options;
+  options.omega = 62.0 * M_PI;
+  const Record longest = read_record(file, options);
+  ASSERT_EQ(longest.pieces.size(), 2u);
+  EXPECT_NEAR(longest.time.front(), 1.0, 0.3);
+  EXPECT_NEAR(longest.time.back(), 7.0, 0.3);
+  EXPECT_NEAR(longest.pieces[0].frequency, 31.0, 0.05);
+  EXPECT_TRUE(contains(longest.part_read, {"it is piece 1 of 2", "--piece takes another: 2, "}));
+  EXPECT_EQ(longest.notes.back(), longest.part_read);
+  options.piece = 2;
+  EXPECT_NEAR(read_record(file, options).time.front(), 7.0, 0.5);
+  options.omega.reset(); // nothing says what to look for
+  options.piece.reset();
+  EXPECT_EQ(read_record(file, options).size(), seen.time.size());
+  std::string off = "time,a_drum\n";
+  for (std::size_t i = 0; i < 900; ++i)
+    off += csv_line({number_text(seen.time[i]), number_text(seen.a_drum[i])});
+  options.omega = 62.0 * M_PI;
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(put("off.csv", off), options); }),
+                       "the line of the exciter is 'nowhere a part of the motion near 31 Hz'"));
 }
 
 // Stamps that scatter around equally spaced samples, as those of loggers do.
@@ -236,7 +282,7 @@ TEST_F(RecordFiles, TimesMayScatter) {
   for (std::size_t i = 0; i < record.size(); ++i)
     EXPECT_NEAR(record.time[i], history_.time[i], 1e-3 * 0.0005);
   EXPECT_EQ(record.a_drum.size(), record.size());
-  EXPECT_TRUE(contains(error_of<std::exception>([&] { read(0.1); }), "equal steps: "));
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read(0.1); }), "equal steps of "));
 }
 
 TEST_F(RecordFiles, RefusesTimes) {

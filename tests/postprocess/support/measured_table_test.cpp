@@ -141,7 +141,7 @@ TEST_F(MeasuredTables, ClockTimesGrowOverMidnightAndDays) {
       text += cell + ";1\n";
     const MeasuredTable table(put(text));
     EXPECT_TRUE(table.has_clock_times(0));
-    std::optional<long> day;
+    post::ClockDays day;
     return table.clock_times(0, day);
   };
   const std::vector<double> over_midnight = {86399.5, 86400.25};
@@ -253,7 +253,7 @@ TEST_F(MeasuredTables, ClockTimesMayNameTheirZone) {
   const auto seconds = [this](const std::string &first, const std::string &second) {
     const MeasuredTable table(put(fmt::format("t;a\n{};1,5\n{};2,5\n", first, second)));
     EXPECT_TRUE(table.has_clock_times(0)) << first;
-    std::optional<long> day;
+    post::ClockDays day;
     const std::vector<double> times = table.clock_times(0, day);
     return times.back() - times.front();
   };
@@ -268,7 +268,7 @@ TEST_F(MeasuredTables, ClockTimesMayNameTheirZone) {
   EXPECT_EQ(seconds("11/26/2026 14:03:07.25", "11/26/2026 14:03:08.5"), 1.25);
   EXPECT_EQ(seconds("26 Nov 2026 14:03:07.25", "26 Nov 2026 14:03:08.5"), 1.25);
   const MeasuredTable mixed(put("t;a\n14:03:07Z;1\n14:03:08;2\n14:03:09Z;3\n"));
-  std::optional<long> first;
+  post::ClockDays first;
   EXPECT_THROW(mixed.clock_times(0, first), std::runtime_error);
 }
 
