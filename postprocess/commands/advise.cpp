@@ -1,7 +1,6 @@
 #include "commands/commands.h"
 
 #include "advice/bed.h"
-#include "advice/contacts.h"
 #include "advice/steps.h"
 #include "commands/chain_options.h"
 #include "commands/text_options.h"
@@ -39,7 +38,7 @@ struct Arguments {
   std::string measure = "velocity";
   std::string cycles = "30";
   std::optional<std::string> from;
-  bool bed = false, ends = false;
+  bool bed = false;
   std::optional<std::string> question;
   std::optional<std::string> within;
 };
@@ -148,36 +147,6 @@ void run_bed(const Arguments &arguments) {
     fmt::print("  run        {} {}\n", front_command(), words);
 }
 
-/// How many contacts along the width of a drum that tilts a question needs.
-void run_ends(const Arguments &arguments) {
-  const std::string name =
-      choice_option("--question", arguments.question.value_or(""), {"regime", "tilt", "contact"});
-  const auto question = std::find_if(contacts_questions.begin(), contacts_questions.end(),
-                                     [&](const ContactsQuestion &one) { return name == one.name; });
-  BedQuestion request; // for the share that is allowed
-  judge_within(arguments.within.value_or("10%"), request);
-  const fs::path folder = arguments.from ? path_option("--from", *arguments.from) : input_file("study/ends");
-  if (!fs::is_regular_file(folder / "contacts.csv"))
-    throw UsageError(refusal("--from", folder.string(), "folders of a study of contacts, with contacts.csv"));
-  const std::vector<ContactsError> study = read_contacts_study(folder / "contacts.csv");
-  const ContactsError &reference = study.back(), &advice = fewest_contacts(study, *question, request.within);
-  fmt::print("{} contacts\n  for        {} within {:g} %, where the drum loses contact\n", advice.contacts,
-             question->words, 100.0 * request.within);
-  fmt::print("  measured   against {} contacts:", reference.contacts);
-  for (auto row = study.begin(); row + 1 != study.end(); ++row)
-    fmt::print("{} {:.3g} % with {}", row == study.begin() ? "" : ",", 100.0 * (*row).*question->error,
-               row->contacts);
-  fmt::print("\n");
-  if (&advice == &reference)
-    fmt::print("  outside    no smaller number keeps to it: compare with {} contacts\n",
-               2 * reference.contacts);
-  fmt::print("  unbroken   without loss of contact two are exact, for meters, too\n"
-             "  time       {:.2g} times that of 2 contacts\n"
-             "  others     of machine and damping were not measured: compare with twice as many contacts\n"
-             "  run        {} exact --contacts {} --out DIR\n",
-             advice.seconds / study.front().seconds, front_command(), advice.contacts);
-}
-
 void run(const Arguments &arguments) {
   AdviceRequest request;
   const AskedChain asked = judged_chain(arguments.chain);
@@ -246,52 +215,39 @@ void add_advise_command(CLI::App &app, Session &) {
       "advise",
       "Steps per cycle that a run of the chain needs for an error, by the measured curves of the accuracy "
       "study; for other chains than the measured ones scaled, with a margin. With --bed the cheapest scene "
-      "of a bed, and how many beds of each scene give its mean. With --ends how many contacts along its "
-      "width a drum that tilts needs.");
+      "of a bed, and how many beds of each scene give its mean.");
   command->footer("Examples:\n"
                   "  drumlin advise --error 1e-3 --case II\n"
                   "  drumlin advise --bed --question force --within 20%\n"
                   "  drumlin advise --bed --question settlement --within 2mm\n"
-                  "  drumlin advise --bed --from inputs/study/scatter --question stiffness --within 10%\n"
-                  "  drumlin advise --ends --question tilt --within 5%\n");
+                  "  drumlin advise --bed --from inputs/study/scatter --question stiffness --within 10%\n");
   add_chain_options(*command, arguments->chain);
   text_option(command, "--error", "NUMBER", arguments->error, "relative error that is allowed");
   text_option(command, "--measure", "TEXT", arguments->measure, "error of: velocity, force or acceleration");
   text_option(command, "--stepping", "TEXT", arguments->stepping, "second or stock");
   text_option(command, "--cycles", "COUNT", arguments->cycles, "length of the run, for its time");
-  text_option(
-      command, "--from", "DIR", arguments->from,
-      "folder of an accuracy study of your own (with --bed: of any study of beds; with --ends: one with "
-      "contacts.csv), instead of the project's");
+  text_option(command, "--from", "DIR", arguments->from,
+              "folder of an accuracy study of your own (with --bed: of any study of beds), instead of the "
+              "project's");
   command->add_flag("--bed", arguments->bed,
                     "advise on a bed instead: the cheapest scene that the fidelity study has measured (see "
                     "`drumlin study fidelity`)");
-  command->add_flag("--ends", arguments->ends,
-                    "advise on a drum that tilts instead: the number of contacts along its width");
-  text_option(
-      command, "--question", "TEXT", arguments->question,
-      "with --bed: force, acceleration, settlement or stiffness; with --ends: regime, tilt or contact, "
-      "the share of time in contact");
+  text_option(command, "--question", "TEXT", arguments->question,
+              "with --bed: force, acceleration, settlement or stiffness");
   text_option(
       command, "--within", "TEXT", arguments->within,
-      "with --bed or --ends: error that is allowed, 10% if not given; of settlement also in mm per cycle, as "
-      "2mm");
+      "with --bed: error that is allowed, 10% if not given; of settlement also in mm per cycle, as 2mm");
   command->callback([arguments, command] {
-    const bool asked = arguments->bed || arguments->ends;
     const std::set<std::string> of_question = {"--question", "--within"},
-                                of_all = {"--bed", "--ends", "--from", "--help"};
-    if (arguments->bed && arguments->ends) throw UsageError(refusal("--ends", "given", "without --bed"));
+                                of_all = {"--bed", "--from", "--help"};
     for (const CLI::Option *option : command->get_options()) {
       const std::string name = option->get_name();
-      if (option->count() == 0 || of_all.count(name) > 0 || (of_question.count(name) > 0) == asked) continue;
-      throw UsageError(refusal(name, option->as<std::string>(),
-                               arguments->bed    ? "without --bed"
-                               : arguments->ends ? "without --ends"
-                                                 : "with --bed or --ends"));
+      if (option->count() == 0 || of_all.count(name) > 0 || (of_question.count(name) > 0) == arguments->bed)
+        continue;
+      throw UsageError(
+          refusal(name, option->as<std::string>(), arguments->bed ? "without --bed" : "with --bed"));
     }
-    if (arguments->ends)
-      run_ends(*arguments);
-    else if (arguments->bed)
+    if (arguments->bed)
       run_bed(*arguments);
     else
       run(*arguments);

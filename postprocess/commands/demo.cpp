@@ -131,9 +131,7 @@ public:
     step("regimes of the roller\n", [this] { map_regimes(); });
     step("what the meter says of the soil\n", [this] { study_meter(); });
     if (plan_.drives) step(fmt::format("{:<22}", "roller over a lift"), [this] { wait_for_drive(); });
-    step("report\n", [] {
-      print_report({{results_folder, (places().inputs / "study/observations").string()}, page_folder});
-    });
+    step("report\n", [] { print_report({{results_folder}, page_folder}); });
     for (std::size_t i = 0; i < steps_.size(); ++i) {
       print(fmt::format("[{:2}/{:2}] {}", i + 1, steps_.size(), steps_[i].words));
       steps_[i].make();

@@ -16,6 +16,7 @@
 #include <exception>
 #include <iostream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -53,6 +54,15 @@ constexpr const char *left_out = " in a build with -DDRUMLIN_POSTPROCESS=OFF";
 #else
 constexpr const char *left_out = "";
 #endif
+
+struct GoneOption {
+  const char *subcommand, *option, *instead;
+};
+constexpr std::array gone_options = {
+    GoneOption{"advise", "--ends", "none; inputs/study/ends/findings.md says how many contacts are enough"},
+    GoneOption{"meter", "--export", "none; meter.csv in --out has all values, a site is mapped by Veta"},
+    GoneOption{"passes", "--field", "none, but folders of runs: FOLDER...; a site is mapped by Veta"},
+};
 
 constexpr int bad_usage = 2;
 
@@ -106,6 +116,10 @@ int run(int argc, char **argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {
     if (error.get_exit_code() == 0) return app.exit(error); // help or version
+    for (const GoneOption &gone : gone_options)
+      for (const std::string &word : std::vector<std::string>(argv + 1, argv + argc))
+        if (name == gone.subcommand && word.substr(0, word.find('=')) == gone.option)
+          return fail(name, refusal(gone.option, "given", gone.instead), bad_usage);
     return fail(name,
                 refusal("the command line", session.command,
                         fmt::format("what 'drumlin{} --help' lists: {}", name.empty() ? "" : " " + name,

@@ -30,19 +30,16 @@ struct Arguments {
   std::string rmv_constant = "100";
   std::string same = "0.05";
   DrumArguments drum;
-  std::optional<std::string> window, speed, exported;
+  std::optional<std::string> window;
   WayArguments way;
-  std::string pass = "1";
   std::string out = "results/meter";
 };
 
 struct Task {
   MeterOptions options;
-  PassOptions passes;
   std::optional<double> window_seconds, window_metres; ///< instead of a number of cycles
   WayRange way;
   fs::path out;
-  std::optional<fs::path> exported;
 };
 
 constexpr int longest_window = 1000000;
@@ -86,16 +83,9 @@ Task judge(const Arguments &arguments) {
     options.drum_width = drum->length;
     options.poisson = drum->poisson;
   }
-  if (arguments.speed)
-    task.passes.speed = number_option("--speed", *arguments.speed, Range{1e-3, 1e3, "km/h"});
   task.way = judged(arguments.way);
-  task.passes.pass = count_option("--pass", arguments.pass, 1, 65535);
   task.out = checked_out(arguments.out);
-  std::vector<GivenPath> outputs = {{"--out", task.out, true}};
-  if (arguments.exported)
-    outputs.push_back(
-        {"--export", task.exported.emplace(output_file_option("--export", *arguments.exported))});
-  keep_apart(files_of(arguments.record), outputs);
+  keep_apart(files_of(arguments.record), {{"--out", task.out, true}});
   return task;
 }
 
@@ -185,10 +175,6 @@ void run(const Arguments &arguments) {
                {draft.path() / "parameters.csv", settings_of(result.record)}});
   write_meter_page(draft.path(), result);
   draft.publish();
-  if (task.exported) {
-    make_parent_folder(*task.exported);
-    write_files({{*task.exported, all_passes_csv(result, task.passes)}});
-  }
   fmt::print("{}\n", (task.out / "index.html").string());
 }
 
@@ -216,27 +202,13 @@ void add_meter_command(CLI::App &app, Session & /*session*/) {
   add_drum_options(*meter, arguments->drum);
   text_option(meter, "--out", "DIR", arguments->out,
               "folder of meter.csv and the page; an earlier one is replaced");
-  text_option(meter, "--export", "FILE", arguments->exported,
-              "also write the all-passes CSV that compaction software reads");
-  text_option(meter, "--speed", "NUMBER", arguments->speed,
-              "speed of travel [km/h], for the places of cells in --export");
-  text_option(meter, "--pass", "COUNT", arguments->pass, "number of the pass in --export");
   meter->footer("Examples:\n"
                 "  drumlin meter results/my-run\n"
                 "  drumlin meter results/my-run/chain.csv --window 0.5s --out results/meter-samples\n"
                 "  drumlin meter field.csv --column 'time=Time:ms' --column 'a_drum=Acc Z:-g' --frequency 29 "
                 "--low-pass 200 \\\n"
-                "      --window 20 --export field-passes.csv --speed 4");
-  meter->callback([arguments, meter] {
-    const auto needs = [meter](const char *option, const char *other) {
-      if (meter->count(option) > 0 && meter->count(other) == 0)
-        throw UsageError(refusal(option, meter->get_option(option)->as<std::string>(),
-                                 fmt::format("only with {}", other)));
-    };
-    needs("--speed", "--export");
-    needs("--pass", "--export");
-    run(*arguments);
-  });
+                "      --window 20");
+  meter->callback([arguments] { run(*arguments); });
 }
 
 } // namespace drumlin::post

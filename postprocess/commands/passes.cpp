@@ -2,7 +2,6 @@
 
 #include "commands/commands.h"
 #include "commands/text_options.h"
-#include "passes/field_page.h"
 #include "passes/page.h"
 #include "passes/tables.h"
 #include "support/files.h"
@@ -26,31 +25,13 @@ constexpr const char *usual_out = "results/passes";
 
 struct Task {
   std::vector<fs::path> folders;
-  std::optional<fs::path> field; ///< of a site, instead of folders
   PassesOptions options;
   AcceptanceRule rule;
   fs::path out;
 };
 
-/// Refuses options of runs for a file of a site, and a call that names neither or both.
-void check_kind(const PassesArguments &arguments) {
-  if (!arguments.field && arguments.folders.empty())
-    throw UsageError(refusal("FOLDER", "", "the folder of a run of inputs/bed/in.drive, or --field FILE"));
-  if (!arguments.field) return;
-  if (!arguments.folders.empty())
-    throw UsageError(refusal("--field", *arguments.field, "without FOLDER: a site's file or runs"));
-  const auto of_runs = [](const char *name, const std::optional<std::string> &given) {
-    if (given) throw UsageError(refusal(name, *given, "only for runs, without --field"));
-  };
-  of_runs("--spacing", arguments.spacing);
-  of_runs("--roller", arguments.roller.file);
-  of_runs("--drum-radius", arguments.drum.radius);
-  of_runs("--drum-width", arguments.drum.width);
-}
-
 Task judge(const PassesArguments &arguments) {
   Task task;
-  check_kind(arguments);
   task.rule.coverage = 0.01 * number_option("--coverage", arguments.coverage, {0.0, 100.0, "%", false, true});
   if (arguments.target)
     task.rule.target = number_option("--target", *arguments.target, {0.0, 1e15, "", false, true});
@@ -62,8 +43,7 @@ Task judge(const PassesArguments &arguments) {
     task.folders.push_back(folder);
   }
   PassesOptions &options = task.options;
-  options.cell = number_option("--cell", arguments.cell,
-                               arguments.field ? Range{0.01, 100.0, "m"} : Range{0.0, 1e3, "m", false, true});
+  options.cell = number_option("--cell", arguments.cell, {0.0, 1e3, "m", false, true});
   if (arguments.spacing) options.spacing = number_option("--spacing", *arguments.spacing, {1e-6, 1e3, "m"});
   if (const auto drum = judged(arguments.drum, judged(arguments.roller))) {
     options.meter.drum_radius = drum->radius;
@@ -73,14 +53,11 @@ Task judge(const PassesArguments &arguments) {
   const std::string usual = task.folders.size() == 1 ? task.folders.front().string() : usual_out;
   task.out = output_folder_option("--out", arguments.out.value_or(usual));
   std::vector<GivenPath> inputs = files_of(arguments.roller);
-  if (arguments.field)
-    inputs.push_back({"--field", task.field.emplace(path_option("--field", *arguments.field))});
-  else
-    try {
-      cell_meter(arguments.meter);
-    } catch (const std::invalid_argument &names) {
-      throw UsageError(refusal("--meter", arguments.meter, names.what()));
-    }
+  try {
+    cell_meter(arguments.meter);
+  } catch (const std::invalid_argument &names) {
+    throw UsageError(refusal("--meter", arguments.meter, names.what()));
+  }
   for (const fs::path &folder : task.folders)
     for (const GivenPath &file :
          files_in("FOLDER", folder, {"parameters.csv", "bed.csv", "cycles.csv", "dump"}))
@@ -98,38 +75,10 @@ PassesResult measured(const fs::path &folder, const PassesOptions &options) {
   }
 }
 
-std::vector<FileText> acceptance_of(const fs::path &folder, const JudgedMap &judged) {
-  return {{folder / "acceptance.csv", acceptance_csv(judged.map, judged.rows)},
-          {folder / "variogram.csv", variogram_csv(judged.map, judged.variogram)}};
-}
-
-/// The same of a file of a site.
-void run_field(const PassesArguments &arguments, const Task &task) {
-  const FieldFile field = read_field_file(*task.field, arguments.meter, task.options.cell);
-  const JudgedMap judged(meter_map(field), task.rule);
-  make_output_folder(task.out);
-  FolderInProgress page(fs::weakly_canonical(fs::absolute(task.out)) / page_folder);
-  write_field_page(page.path(), field, judged);
-  std::vector<FileText> tables = acceptance_of(task.out, judged);
-  tables.emplace_back(task.out / "passes.csv", passes_csv(field));
-  tables.emplace_back(task.out / "way.csv", way_csv(field));
-  write_files(tables);
-  page.publish();
-  fmt::print("{}\n", answer_of(judged.map, judged.rows, judged.rule));
-  for (const std::string &note : field.notes)
-    fmt::print("{}: {}\n", field.file.string(), note);
-  fmt::print("{}\n{}\n", (task.out / "passes.csv").string(),
-             (task.out / page_folder / "index.html").string());
-}
-
 } // namespace
 
 void print_passes(const PassesArguments &arguments) {
   const Task task = judge(arguments);
-  if (task.field) {
-    run_field(arguments, task);
-    return;
-  }
   std::vector<PassesResult> results;
   for (const fs::path &folder : task.folders) {
     results.push_back(measured(folder, task.options));
@@ -145,7 +94,7 @@ void print_passes(const PassesArguments &arguments) {
   make_output_folder(task.out);
   FolderInProgress page(fs::weakly_canonical(fs::absolute(task.out)) / page_folder);
   write_passes_page(page.path(), results, judged);
-  std::vector<FileText> tables = acceptance_of(task.out, judged);
+  std::vector<FileText> tables = {{task.out / "acceptance.csv", acceptance_csv(judged.map, judged.rows)}};
   if (results.size() == 1) {
     for (FileText &table : pass_tables(task.out, results.front()))
       tables.push_back(std::move(table));
@@ -177,28 +126,24 @@ void add_passes_command(CLI::App &app, Session & /*session*/) {
       "What each pass of a roller that drives over a bed leaves: settlement, how much of it is "
       "compaction, solid fraction of each layer, heave, energy, meter values along the way, profiles "
       "over depth, rules of acceptance. Writes passes.csv, way.csv, surface.csv, depth.csv, "
-      "acceptance.csv, variogram.csv and a page.");
-  passes->add_option(
-      "FOLDER", arguments->folders,
-      "folder of a run of inputs/bed/in.drive; several: beds that differ in their seed, of which "
-      "means and intervals are written");
-  text_option(passes, "--field", "FILE", arguments->field,
-              "instead of runs: the table of all passes that compaction software exports, CSV with CellN_m, "
-              "CellE_m (or _FT, or Lat, Long), PassNumber or PassCount, LastCMV, ...; passes.csv, way.csv, "
-              "acceptance.csv, variogram.csv and the page are made from it");
+      "acceptance.csv and a page.");
+  passes
+      ->add_option(
+          "FOLDER", arguments->folders,
+          "folder of a run of inputs/bed/in.drive; several: beds that differ in their seed, of which "
+          "means and intervals are written")
+      ->required();
   text_option(passes, "--meter", "NAME", arguments->meter,
               "value of the cells that is mapped and judged: CMV, RMV, CCV, k_B, E_vib, contact_share, "
-              "peak_force; of a site's file the name of a column, with or without Last");
+              "peak_force");
   text_option(
       passes, "--target", "NUMBER", arguments->target,
       "of this value, in its unit in passes.csv: cells at or above it are counted; without it nothing is "
       "judged");
   text_option(passes, "--coverage", "NUMBER", arguments->coverage,
               "share of the cells that must reach the target [%]; rules have 70 or 80");
-  text_option(
-      passes, "--cell", "NUMBER", arguments->cell,
-      "length of a cell along the way [m], of four cycles of the excitation or more; with --field the "
-      "side of the grid's cells");
+  text_option(passes, "--cell", "NUMBER", arguments->cell,
+              "length of a cell along the way [m], of four cycles of the excitation or more");
   text_option(passes, "--spacing", "NUMBER", arguments->spacing,
               "distance of the vertical lines along which surfaces are measured [m]; a quarter of the radius "
               "of the smallest ball if not given");
@@ -211,8 +156,7 @@ void add_passes_command(CLI::App &app, Session & /*session*/) {
   passes->footer("Examples:\n"
                  "  drumlin passes results/drive\n"
                  "  drumlin passes results/drive-1 results/drive-2 results/drive-3 --out results/seeds\n"
-                 "  drumlin passes results/drive --target 30\n"
-                 "  drumlin passes --field site.csv --target 45 --coverage 70 --out results/site");
+                 "  drumlin passes results/drive --target 30 --coverage 70");
   passes->callback([arguments] { print_passes(*arguments); });
 }
 

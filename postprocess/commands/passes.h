@@ -13,13 +13,13 @@ namespace drumlin::post {
 struct PassesArguments {
   std::vector<std::string> folders;
   std::string cell = "0.34", meter = "CMV", coverage = "80";
-  std::optional<std::string> spacing, out, target, field;
+  std::optional<std::string> spacing, out, target;
   RollerArguments roller;
   DrumArguments drum;
 };
 
-/// Writes the tables and the page of runs, or of a file of a site, and prints what they say. Throws
-/// UsageError for options and runs that cannot be used.
+/// Writes the tables and the page of runs, and prints what they say. Throws UsageError for options and runs
+/// that cannot be used.
 void print_passes(const PassesArguments &arguments);
 
 } // namespace drumlin::post

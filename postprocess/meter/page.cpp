@@ -356,37 +356,6 @@ std::string answer_line(const MeterResult &result) {
   return text;
 }
 
-std::string all_passes_csv(const MeterResult &result, const PassOptions &options) {
-  constexpr double cell = 0.34; // m
-  std::string text = "Time,CellN_m,CellE_m,Elevation_m,PassNumber,LastRadioLtncy,DesignName,Machine,Speed_km/"
-                     "h,LastGPSMode,GPSAccTol_m,TargPassCount,ValidPos,Lift,LastCMV,TargCMV,LastMDP,TargMDP,"
-                     "LastRMV,LastFreq_Hz,LastAmp_mm,TargThickness_m,MachineGear,VibeState,LastTemp,_c\r\n";
-  const auto place = [&](std::size_t i) {
-    if (!options.speed) return static_cast<long>(i);
-    return std::lround(*options.speed / 3.6 * result.windows[i].begin / cell);
-  };
-  const std::string frequency = fmt::format("{:.1f}", result.cycles.omega / (2.0 * pi));
-  for (std::size_t i = 0; i < result.windows.size(); ++i) {
-    if (i + 1 < result.windows.size() && place(i + 1) == place(i))
-      continue; // a later window is in the same cell
-    const MeterWindow &w = result.windows[i];
-    const auto known = [](std::optional<double> value, const char *format, double scale) {
-      return value && std::isfinite(*value) ? fmt::format(fmt::runtime(format), scale * *value)
-                                            : std::string("?");
-    };
-    const auto milliseconds = static_cast<long long>(std::llround(1e3 * std::max(0.0, w.begin)));
-    const long long days = milliseconds / 86400000;
-    text += fmt::format("2000/Jan/{:02d} "
-                        "{:02d}:{:02d}:{:02d}.{:03d},{:.2f},0.00,?,{},?,?,?,{},?,?,?,Yes,?,{},?,?,?,{},{},{},"
-                        "?,Forward,On,?\r\n",
-                        days + 1, milliseconds / 3600000 % 24, milliseconds / 60000 % 60,
-                        milliseconds / 1000 % 60, milliseconds % 1000, cell * static_cast<double>(place(i)),
-                        options.pass, known(options.speed, "{:.1f}", 1.0), known(w.cmv, "{:.1f}", 1.0),
-                        known(w.rmv, "{:.1f}", 1.0), frequency, known(w.displacement, "{:.2f}", 1e3));
-  }
-  return text;
-}
-
 void write_meter_page(const std::filesystem::path &folder, const MeterResult &result) {
   const bool bed = result.record.file.filename() == "bed.csv";
   Page page(folder, "What the roller's meter shows", bed ? Drawing::bed : Drawing::chain);

@@ -41,17 +41,6 @@ std::vector<std::string> reading_words(const Record &record);
 /// The last window in one line: mode, CMV with its bound, RMV and the other values that there are.
 std::string answer_line(const MeterResult &result);
 
-/// How a roller travelled while the record was made.
-struct PassOptions {
-  std::optional<double> speed; ///< [km/h]; unknown: one cell for each window
-  int pass = 1;                ///< number of the pass
-};
-
-/// The "all passes" table of compaction software: a row for each cell of 0.34 m along the roller's path, with
-/// CMV, RMV, frequency and amplitude of the last window in it; CRLF line ends, '?' for what is not known. The
-/// path runs north from 0; times count from 2000/Jan/01 00:00:00.
-std::string all_passes_csv(const MeterResult &result, const PassOptions &options);
-
 /// Writes a page index.html that shows what was read: reading_words(), and the first second of each signal.
 void write_reading_page(const std::filesystem::path &folder, const Record &record);
 

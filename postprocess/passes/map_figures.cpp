@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -18,32 +17,6 @@ namespace {
 std::string label_of(const MeterMap &map) { return fmt::format("{} [{}]", map.meter, map.unit); }
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
-
-/// Means over the cells side by side, by their place along the way in whole cells.
-std::map<long, double> along_of(const MeterMap &map, const std::vector<MapValue> &values) {
-  std::map<long, std::pair<double, double>> sums;
-  for (const MapValue &one : values) {
-    if (map.places[one.place].area != 0) continue;
-    auto &[sum, count] = sums[std::lround(std::floor(map.places[one.place].along / map.cell + 1e-6))];
-    sum += one.value;
-    count += 1.0;
-  }
-  std::map<long, double> means;
-  for (const auto &[bin, sum] : sums)
-    means[bin] = sum.first / sum.second;
-  return means;
-}
-
-/// Where the first cell of the first area begins, as a share of a cell: bins are whole cells from there.
-MeterMap from_first_cell(const MeterMap &map) {
-  MeterMap moved = map;
-  double least = INFINITY;
-  for (const MapPlace &place : map.places)
-    if (place.area == 0) least = std::min(least, place.along);
-  for (MapPlace &place : moved.places)
-    place.along -= least - 0.5 * map.cell;
-  return moved;
-}
 
 /// Colours from the least to the largest value.
 std::string color_range_of(const std::vector<double> &values) {
@@ -74,7 +47,7 @@ std::vector<std::size_t> shown_passes(std::size_t passes) {
 }
 
 JudgedMap::JudgedMap(MeterMap values, const AcceptanceRule &asked)
-    : map(std::move(values)), rule(asked), rows(cells_of_passes(map, rule)), variogram(semivariogram(map)) {}
+    : map(std::move(values)), rule(asked), rows(cells_of_passes(map, rule)) {}
 
 std::vector<Acceptance> criteria_of(const JudgedMap &judged) {
   const AcceptanceRule &rule = judged.rule;
@@ -107,22 +80,21 @@ PageFigure map_figure(const std::string &label, const JudgedMap &judged) {
           "at the middles of the cells.",
           map.meter, map.cell),
       {name, fmt::format("{} along the way", map.meter), {}, 1}, 0.8);
-  const MeterMap moved = from_first_cell(map);
-  double first = INFINITY; // place of the first cell's beginning
-  for (const MapPlace &place : map.places)
-    if (place.area == 0) first = std::min(first, place.along - 0.5 * map.cell);
   CurveTable table(fmt::format("s [m],pass,left [m],right [m],bottom,top,{}", label_of(map)));
+  const double half = 0.5 * map.cell;
+  double first = INFINITY, end_of_way = -INFINITY;
   std::vector<double> shown;
-  double end_of_way = first;
-  std::vector<std::map<long, double>> passes;
+  std::vector<std::vector<MapValue>> passes; // of the first run
   for (int pass = 1; pass <= map.passes(); ++pass) {
-    passes.push_back(along_of(moved, moved.of_pass(pass)));
-    for (const auto &[bin, value] : passes.back()) {
-      const double left = first + static_cast<double>(bin) * map.cell;
-      table.row("map", {left + 0.5 * map.cell, static_cast<double>(pass), left, left + map.cell, pass - 0.5,
-                        pass + 0.5, value});
-      shown.push_back(value);
-      end_of_way = std::max(end_of_way, left + map.cell);
+    passes.emplace_back();
+    for (const MapValue &one : map.of_pass(pass)) {
+      if (map.places[one.place].area != 0) continue;
+      const double s = map.places[one.place].along;
+      table.row("map", {s, static_cast<double>(pass), s - half, s + half, pass - 0.5, pass + 0.5, one.value});
+      passes.back().push_back(one);
+      shown.push_back(one.value);
+      first = std::min(first, s - half);
+      end_of_way = std::max(end_of_way, s + half);
     }
   }
   Panel colours{"", "place along the way [m]", "pass", {}};
@@ -136,12 +108,11 @@ PageFigure map_figure(const std::string &label, const JudgedMap &judged) {
   for (const std::size_t pass : shown_passes(static_cast<std::size_t>(map.passes()))) {
     if (pass == 0 || passes[pass - 1].empty()) continue;
     const std::string key = fmt::format("pass {}", pass);
-    long before = passes[pass - 1].begin()->first;
-    for (const auto &[bin, value] : passes[pass - 1]) {
-      if (bin > before + 1) table.row(key, {NAN, NAN, NAN, NAN, NAN, NAN, NAN}); // a gap
-      before = bin;
-      table.row(key, {first + (static_cast<double>(bin) + 0.5) * map.cell, static_cast<double>(pass), NAN,
-                      NAN, NAN, NAN, value});
+    std::size_t before = passes[pass - 1].front().place;
+    for (const MapValue &one : passes[pass - 1]) {
+      if (one.place > before + 1) table.row(key, {NAN, NAN, NAN, NAN, NAN, NAN, NAN}); // a gap
+      before = one.place;
+      table.row(key, {map.places[one.place].along, static_cast<double>(pass), NAN, NAN, NAN, NAN, one.value});
     }
     curves.curves.push_back(curve(name, key, "$2", "8", pass_line(++n)));
   }
@@ -157,40 +128,12 @@ PageFigure map_figure(const std::string &label, const JudgedMap &judged) {
   return figure;
 }
 
-PageFigure plan_figure(const std::string &label, const JudgedMap &judged) {
-  const std::string name = "plan";
-  const MeterMap &map = judged.map;
-  PageFigure figure = page_figure(
-      label,
-      fmt::format("{} of each cell in its last pass, in plan: east and north of the corner of all cells.",
-                  map.meter),
-      {name, fmt::format("{} in plan", map.meter), {}, 1, false, true}, 0.9);
-  CurveTable table(fmt::format("east [m],north [m],left [m],right [m],bottom [m],top [m],{}", label_of(map)));
-  std::vector<double> shown;
-  const double half = 0.5 * map.cell;
-  for (const MapValue &one : map.last()) {
-    const MapPlace &place = map.places[one.place];
-    if (place.area != 0) continue;
-    table.row("cells", {place.east, place.north, place.east - half, place.east + half, place.north - half,
-                        place.north + half, one.value});
-    shown.push_back(one.value);
-  }
-  Panel panel{"", "east [m]", "north [m]", {}};
-  panel.add(curve(name, "cells", "$2", "3:4:5:6:7:8", CurveStyle::cells), "");
-  panel.color_label = label_of(map);
-  panel.color_range = color_range_of(shown);
-  panel.equal_scales = true;
-  figure.figure.panels = {panel};
-  figure.csv = table.text();
-  return figure;
-}
-
 std::optional<PageFigure> rule_figure(const std::string &label, const JudgedMap &judged, bool mean) {
   const std::string name = "rules";
   const MeterMap &map = judged.map;
   const AcceptanceRule &rule = judged.rule;
   PageFigure figure = page_figure(label, "", {name, "What rules of acceptance ask for", {}, 2});
-  CurveTable table("pass or distance,value,low,high");
+  CurveTable table("pass,value,low,high");
   std::string caption;
   const std::string passes_range = fmt::format("[0.7:{}.3]", std::max(2, map.passes()));
   const auto add = [&](Panel panel) {
@@ -246,28 +189,7 @@ std::optional<PageFigure> rule_figure(const std::string &label, const JudgedMap 
               fmt::format("{:g} %", 100.0 * rule.coverage));
     panel.y_range = "[0:105]";
     add(std::move(panel));
-  }
-  if (!judged.variogram.empty()) {
-    for (const VariogramRow &row : judged.variogram)
-      table.row("semivariance", {row.distance, row.semivariance});
-    Panel panel =
-        line_panel(name, "semivariance", "Semivariogram of the last pass", "distance along the way [m]",
-                   map.unit == "-" ? "semivariance [-]" : fmt::format("semivariance [({})^2]", map.unit));
-    const double variance = std::pow(judged.rows.back().deviation, 2);
-    table.row("variance", {0.0, variance});
-    table.row("variance", {judged.variogram.back().distance, variance});
-    panel.add(curve(name, "variance", "$2", "3", CurveStyle::limit), "variance of the cells");
-    panel.x_range = "[0:*]";
-    panel.y_range = "[0:*]";
-    add(std::move(panel));
-    constexpr std::size_t few = 30;
-    const bool sparse = std::any_of(judged.variogram.begin(), judged.variogram.end(),
-                                    [](const VariogramRow &row) { return row.pairs < few; });
-    caption += "Semivariance: half the mean square of the differences of cells at a distance, up to half the "
-               "way; where it levels off, cells know nothing of each other.";
-    if (sparse) caption += " Some of its points are of less than 30 pairs (variogram.csv), which is few.";
-  } else {
-    caption += fmt::format("A semivariogram is made of {} cells or more.", least_variogram_cells);
+    caption += "Coverage: share of the cells at or above the target.";
   }
   if (figure.figure.panels.empty()) return std::nullopt;
   figure.caption = caption;

@@ -1,5 +1,5 @@
-// The parts of a page that show a map of meter values: along the way and over passes, in plan, and what rules
-// of acceptance say.
+// The parts of a page that show a map of meter values, along the way and over passes, and what rules of
+// acceptance say.
 #pragma once
 
 #include "pages/page.h"
@@ -22,7 +22,6 @@ struct JudgedMap {
   MeterMap map;
   AcceptanceRule rule;
   std::vector<PassCells> rows;
-  std::vector<VariogramRow> variogram;
 
   JudgedMap(MeterMap values, const AcceptanceRule &asked);
 };
@@ -30,13 +29,10 @@ struct JudgedMap {
 /// The criteria of the rule; none without a target.
 std::vector<Acceptance> criteria_of(const JudgedMap &judged);
 
-/// The colour map over place and passes, of the first area, and the last passes as curves; where cells lie
-/// side by side across the way, means over them.
+/// The colour map over place and passes, of the first run, and the last passes as curves.
 PageFigure map_figure(const std::string &label, const JudgedMap &judged);
-/// The last value of each cell in plan, of the first area.
-PageFigure plan_figure(const std::string &label, const JudgedMap &judged);
-/// The mean over passes (if `mean`), its gain, coverage, semivariogram, as far as there are any; nothing if
-/// there is none.
+/// The mean over passes (if `mean`), its gain and coverage, as far as there are any; nothing if there is
+/// none.
 std::optional<PageFigure> rule_figure(const std::string &label, const JudgedMap &judged, bool mean);
 /// What each pass has, as acceptance.csv.
 PageTable map_table(const JudgedMap &judged);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -61,7 +60,7 @@ std::string cell_of(std::optional<double> value) { return value ? cell_of(*value
 
 } // namespace
 
-std::string MeterMap::unit_words() const { return unit == "-" || unit == "?" ? "" : " " + unit; }
+std::string MeterMap::unit_words() const { return unit == "-" ? "" : " " + unit; }
 
 std::vector<MapValue> MeterMap::of_pass(int pass) const {
   const auto range = std::equal_range(values.begin(), values.end(), MapValue{pass, 0, 0.0},
@@ -102,7 +101,7 @@ MeterMap meter_map(const std::vector<PassesResult> &results, const CellMeter &me
     const PassesResult &result = results[run];
     const std::size_t first = map.places.size(), count = result.cells.size() / result.passes.size();
     for (std::size_t i = 0; i < count; ++i)
-      map.places.push_back({run, 0.5 * (result.cells[i].part.from + result.cells[i].part.to), 0.0});
+      map.places.push_back({run, 0.5 * (result.cells[i].part.from + result.cells[i].part.to)});
     for (std::size_t i = count; count > 0 && i < result.cells.size(); ++i)
       if (const std::optional<double> value = meter.value(result.cells[i]);
           result.cells[i].cycles > 0 && value && std::isfinite(*value))
@@ -144,58 +143,6 @@ std::optional<int> passes_until_gain(const std::vector<PassCells> &rows, const A
   return level;
 }
 
-std::vector<VariogramRow> semivariogram(const MeterMap &map) {
-  const std::vector<MapValue> values = map.last();
-  if (values.size() < least_variogram_cells) return {};
-  // Cells lane by lane, along the way, so that the neighbours of one stand near it.
-  std::map<std::pair<std::size_t, long>, std::vector<std::pair<double, std::size_t>>> lanes;
-  double low = INFINITY, high = -INFINITY;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const MapPlace &place = map.places[values[i].place];
-    lanes[{place.area, std::lround(place.across / map.cell)}].emplace_back(place.along, i);
-    low = std::min(low, place.along);
-    high = std::max(high, place.along);
-  }
-  constexpr double most_classes = 100.0;
-  const auto classes =
-      static_cast<std::size_t>(std::clamp(std::round(0.5 * (high - low) / map.cell), 1.0, most_classes));
-  struct Sum {
-    double distance = 0.0, squares = 0.0;
-    std::size_t pairs = 0;
-  };
-  std::vector<Sum> sums(classes + 1);
-  for (auto &[key, lane] : lanes)
-    std::sort(lane.begin(), lane.end());
-  for (const auto &[key, lane] : lanes)
-    for (const long beside : {0L, 1L}) { // a lane that is not straight on the grid has cells in two rows
-      const auto other = lanes.find({key.first, key.second + beside});
-      if (other == lanes.end()) continue;
-      for (const auto &[along, i] : lane) {
-        const double reach = (static_cast<double>(classes) + 0.5) * map.cell;
-        const auto from = std::lower_bound(other->second.begin(), other->second.end(),
-                                           std::pair(beside == 0 ? along : along - reach, std::size_t{0}));
-        for (auto at = from; at != other->second.end() && at->first - along < reach; ++at) {
-          if (at->second == i) continue;
-          const MapPlace &one = map.places[values[i].place], &two = map.places[values[at->second].place];
-          const double distance = std::abs(two.along - one.along);
-          const auto n = static_cast<std::size_t>(std::lround(distance / map.cell));
-          if (std::abs(two.across - one.across) >= 0.5 * map.cell || n == 0 || n > classes) continue;
-          const double difference = values[at->second].value - values[i].value;
-          sums[n].distance += distance;
-          sums[n].squares += difference * difference;
-          ++sums[n].pairs;
-        }
-      }
-    }
-  std::vector<VariogramRow> rows;
-  for (const Sum &sum : sums)
-    if (sum.pairs > 0) {
-      const auto pairs = static_cast<double>(sum.pairs);
-      rows.push_back({sum.distance / pairs, sum.pairs, 0.5 * sum.squares / pairs});
-    }
-  return rows;
-}
-
 std::string acceptance_csv(const MeterMap &map, const std::vector<PassCells> &rows) {
   std::string text = csv_line({"pass", "cells [-]", fmt::format("{} [{}]", map.meter, map.unit),
                                fmt::format("{}_scatter [{}]", map.meter, map.unit),
@@ -204,15 +151,6 @@ std::string acceptance_csv(const MeterMap &map, const std::vector<PassCells> &ro
     text += csv_line({row.pass == 0 ? "last" : std::to_string(row.pass), std::to_string(row.cells),
                       cell_of(row.mean), cell_of(row.deviation), cell_of(row.variation()), cell_of(row.gain),
                       cell_of(row.coverage)});
-  return text;
-}
-
-std::string variogram_csv(const MeterMap &map, const std::vector<VariogramRow> &rows) {
-  std::string text =
-      csv_line({"distance [m]", "pairs [-]",
-                map.unit == "-" ? "semivariance [-]" : fmt::format("semivariance [({})2]", map.unit)});
-  for (const VariogramRow &row : rows)
-    text += csv_line({cell_of(row.distance), std::to_string(row.pairs), cell_of(row.semivariance)});
   return text;
 }
 

@@ -1,5 +1,5 @@
-// Meter values of the cells of a way, pass after pass, of runs or from a file of a site, and what rules of
-// acceptance ask of them: gain of the mean per pass, coverage, coefficient of variation, semivariogram.
+// Meter values of the cells of a way, pass after pass, and what rules of acceptance ask of them: gain of the
+// mean per pass, coverage, coefficient of variation.
 #pragma once
 
 #include "passes/values.h"
@@ -13,9 +13,8 @@ namespace drumlin::post {
 
 /// A cell of the ground.
 struct MapPlace {
-  std::size_t area = 0;             ///< places of different areas, such as two runs, are no neighbours
-  double along = 0.0, across = 0.0; ///< m, of its middle, along the way and to the left of it
-  double east = 0.0, north = 0.0;   ///< m, of a site: in plan
+  std::size_t area = 0; ///< the number of the run
+  double along = 0.0;   ///< m, of its middle, along the way
 };
 
 /// What the meter has shown in a cell in a pass.
@@ -26,10 +25,10 @@ struct MapValue {
 };
 
 struct MeterMap {
-  std::string meter = "CMV", unit = "-"; ///< "?": not known
-  double cell = 0.0;                     ///< m, side of a cell
-  std::vector<WayPart> spots;            ///< soft or stiff parts of the ground; the same in all areas
-  std::vector<MapPlace> places;
+  std::string meter = "CMV", unit = "-";
+  double cell = 0.0;            ///< m, side of a cell
+  std::vector<WayPart> spots;   ///< soft or stiff parts of the ground; the same in all areas
+  std::vector<MapPlace> places; ///< run by run, then along the way
   std::vector<MapValue> values; ///< by pass, then by place; at most one for each of both
 
   /// The unit behind a number, with a blank before it; empty if there is none.
@@ -77,23 +76,8 @@ std::vector<PassCells> cells_of_passes(const MeterMap &map, const AcceptanceRule
 /// the last one still did or if there are less than two.
 std::optional<int> passes_until_gain(const std::vector<PassCells> &rows, const AcceptanceRule &rule);
 
-/// Half the mean square of the differences of values at a distance along the way.
-struct VariogramRow {
-  double distance = 0.0; ///< m, mean of the pairs
-  std::size_t pairs = 0;
-  double semivariance = 0.0; ///< unit of the meter, squared
-};
-/// The least number of cells of which a semivariogram is made.
-constexpr std::size_t least_variogram_cells = 10;
-/// Of the values of the last pass of each cell: pairs of one area and lane, less than half a cell apart
-/// across the way, by their distance in whole cells up to half the length of the way. Empty with too few
-/// cells.
-std::vector<VariogramRow> semivariogram(const MeterMap &map);
-
 /// acceptance.csv: a row for each pass, and one with `last` for the last pass of each cell.
 std::string acceptance_csv(const MeterMap &map, const std::vector<PassCells> &rows);
-/// variogram.csv
-std::string variogram_csv(const MeterMap &map, const std::vector<VariogramRow> &rows);
 
 /// In one sentence: mean, scatter and gain of the last pass, coverage if there is a target.
 std::string answer_of(const MeterMap &map, const std::vector<PassCells> &rows, const AcceptanceRule &rule);

@@ -15,7 +15,6 @@
 #include "report/bed/figures.h"
 #include "report/bed/page.h"
 #include "report/chain/page.h"
-#include "report/observations.h"
 #include "report/place.h"
 #include "report/run_folder.h"
 #include "report/soil/element_tests.h"
@@ -235,15 +234,10 @@ ReportOutcome write_report(const ReportOptions &options) {
     place = checked_place(options.out, folders);
   });
   const auto element_pages = read_element_tests(folders, folders.left_out);
-  std::vector<fs::path> files;
-  for (const fs::path &folder_of_observations : folders.observations)
-    files.push_back(folder_of_observations / observations_file);
-  PageTable observations;
-  as_usage([&] { observations = read_observations(files); });
   std::vector<Run> runs = read_runs(folders.runs, folders.left_out);
   ReportContent content = make_content(std::move(runs), std::move(folders.left_out), options.progress);
   if (content.results.runs.empty() && content.beds.empty() && content.ends.empty() && element_pages.empty() &&
-      folders.studies.empty() && observations.rows.empty() &&
+      folders.studies.empty() &&
       std::none_of(content.left_out.begin(), content.left_out.end(),
                    [](const LeftOut &folder) { return folder.cut; }))
     throw UsageError(content.left_out.front().why);
@@ -261,10 +255,6 @@ ReportOutcome write_report(const ReportOptions &options) {
   for (const auto &[test, write] : element_pages) {
     write(folder / test.name);
     content.studies.push_back({link_to(test.name + "/index.html"), test.title});
-  }
-  if (!observations.rows.empty()) {
-    write_observations_page(folder / observations.name, observations);
-    content.studies.push_back({link_to(observations.name + "/index.html"), observations_title});
   }
   content.versions = find_versions(options.version, gnuplot, folder);
   std::vector<FileText> pages = {{folder / "index.html", report_page(content)},

@@ -10,7 +10,6 @@
 #include <fmt/ranges.h>
 
 #include "chain/reference_values.h"
-#include "report/observations.h"
 #include "report/place.h"
 #include "report/soil/element_tests.h"
 #include "support/text.h"
@@ -50,8 +49,6 @@ bool is_run_folder(const fs::path &folder) {
 /// The list to which a folder belongs; nullptr: none.
 std::vector<fs::path> *list_of(const fs::path &folder, ReportFolders &found) {
   if (is_study_folder(folder)) return &found.studies;
-  // Before the runs: tables of observations may have names of their files, as bed.csv.
-  if (fs::is_regular_file(folder / observations_file)) return &found.observations;
   if (is_run_folder(folder)) return &found.runs;
   for (const ElementTest &test : element_tests())
     if (fs::is_regular_file(folder / test.csv())) return &found.element_tests[test.name];
@@ -325,7 +322,6 @@ std::vector<fs::path> ReportFolders::all() const {
   folders.insert(folders.end(), studies.begin(), studies.end());
   for (const auto &[name, of_test] : element_tests)
     folders.insert(folders.end(), of_test.begin(), of_test.end());
-  folders.insert(folders.end(), observations.begin(), observations.end());
   return folders;
 }
 
@@ -343,7 +339,6 @@ std::string files_of_runs() {
   std::vector<std::string> files = {"chain.csv", "bed.csv"};
   for (const ElementTest &test : element_tests())
     files.push_back(test.csv());
-  files.emplace_back(observations_file);
   return fmt::format("{} or {}", fmt::join(files.begin(), files.end() - 1, ", "), files.back());
 }
 
@@ -393,7 +388,6 @@ ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
                                    argument.string(), files_of_runs()));
     take(found.runs, folders.runs);
     take(found.studies, folders.studies);
-    take(found.observations, folders.observations);
     for (auto &[name, of_test] : found.element_tests)
       take(of_test, folders.element_tests[name]);
     found.left_out.insert(found.left_out.end(), earlier_reports.begin(), earlier_reports.end());

@@ -69,7 +69,6 @@ struct ReportFolders {
   /// Hold index.html, and study.txt, or regimes.csv of a map, or are the page of passes.
   std::vector<std::filesystem::path> studies;
   std::map<std::string, std::vector<std::filesystem::path>> element_tests; ///< by name of the test
-  std::vector<std::filesystem::path> observations;                         ///< hold observations.csv
   std::vector<LeftOut> left_out; ///< earlier reports, and runs that were cut before their first row
 
   std::vector<std::filesystem::path> all() const;
@@ -79,7 +78,7 @@ struct ReportFolders {
 /// ended. Empty if it has ended.
 std::string why_cut(const std::map<std::string, std::string> &parameters);
 
-/// The files by which folders of runs and observations are recognised, in words: "chain.csv, bed.csv, ... or
+/// The files by which folders of runs are recognised, in words: "chain.csv, bed.csv, ... or
 /// ...".
 std::string files_of_runs();
 

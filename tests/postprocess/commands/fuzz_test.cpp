@@ -94,12 +94,9 @@ Outcome run_exact(const fs::path &folder, int /*mutant*/) {
                    {"exact", "--roller", "run/roller", "--setting", "low", "--cycles", "3", "--out", "out"});
 }
 
-Outcome run_passes(const fs::path &folder, int mutant) {
+Outcome run_passes(const fs::path &folder, int /*mutant*/) {
   const fs::path quick = folder.parent_path() / "quick";
   write_quick_gnuplot(quick);
-  constexpr int of_site = 3; // one in so many
-  if (mutant % of_site == 0)
-    return run_tools(folder, {"passes", "--field", "run/site.csv", "--out", "out"}, quick.string());
   return run_tools(folder, {"passes", "run", "--cell", "0.4", "--out", "out"}, quick.string());
 }
 
@@ -120,7 +117,7 @@ void write_bed(const fs::path &folder) {
   write_bed_dumps(folder / "run");
 }
 
-/// Two passes of 2 m at 1 m/s and 20 Hz over two rows of discs, and a file of a site.
+/// Two passes of 2 m at 1 m/s and 20 Hz over two rows of discs.
 void write_drive(const fs::path &folder) {
   fs::create_directories(folder / "run/dump");
   constexpr double w = 40.0 * 3.14159265358979323846, r = 0.05;
@@ -137,14 +134,8 @@ void write_drive(const fs::path &folder) {
   }
   for (int cycle = 1; cycle <= 80; ++cycle)
     cycles += fmt::format("{},{:.9g},1,5,0,0.5,0,0,0\n", cycle, cycle / 20.0);
-  std::string site =
-      "Time,CellN_m,CellE_m,Elevation_m,PassNumber,Speed_km/h,ValidPos,LastCMV,VibeState,LastTemp,_c\n";
-  for (int n = 0; n < 30; ++n)
-    site += fmt::format("2025/Oct/01 09:30:02.800,{:.2f},7.65,3.1,{},3.6km/h,Yes,{},On,?\n", 0.34 * (n % 15),
-                        1 + n / 15, 30 + n);
   std::ofstream(folder / "run/bed.csv", std::ios::binary) << bed;
   std::ofstream(folder / "run/cycles.csv", std::ios::binary) << cycles;
-  std::ofstream(folder / "run/site.csv", std::ios::binary) << site;
   std::ofstream(folder / "run/parameters.csv", std::ios::binary)
       << fmt::format("name,value\ndeck,drive\ndimension,2\nmeasure_from,-0.5\nmeasure_to,0.5\nspeed,1\nomega,"
                      "{:.12g}\nFw,100\nm2,2000\nm3,1000\ntimestep,0.0005\nended,yes\n",
@@ -207,8 +198,8 @@ const std::vector<Subject> &subjects() {
       {"passes",
        150,
        write_drive,
-       {"bed.csv", "cycles.csv", "site.csv", "site.csv", "parameters.csv", "dump/balls_0.dump",
-        "dump/balls_4000.dump", "dump/contacts_8000.dump"},
+       {"bed.csv", "cycles.csv", "parameters.csv", "dump/balls_0.dump", "dump/balls_4000.dump",
+        "dump/contacts_8000.dump"},
        run_passes},
       {"advise", 40, write_curves, {"chain.csv", "scaling.csv"}, run_advise},
       {"roller", 300, write_roller, {"roller"}, run_exact},

@@ -282,34 +282,16 @@ TEST_F(MeterCommand, TellsHowLongTheRollerRemembers) {
 }
 
 TEST_F(MeterCommand, KeepsTheRecord) {
-  write_measured("field.csv", 600);
   write_chain_run(folder_ / "run", "II", Transition::B, 12);
-  fs::create_hard_link(folder_ / "field.csv", folder_ / "hard.csv");
-  fs::create_symlink("field.csv", folder_ / "soft.csv");
   fs::create_symlink(".", folder_ / "here");
-  const std::string field = read_text(folder_ / "field.csv"), chain = read_text(folder_ / "run/chain.csv");
+  const std::string chain = read_text(folder_ / "run/chain.csv");
   const auto refused = [&](std::vector<std::string> words, const std::string &says) {
     const Outcome outcome = meter(std::move(words));
     EXPECT_EQ(outcome.status, 2) << outcome.output;
     EXPECT_TRUE(printed(outcome, "ERROR: drumlin meter: " + says));
     EXPECT_EQ(lines_of(outcome.output).size(), 1U) << outcome.output;
-    EXPECT_EQ(read_text(folder_ / "field.csv"), field);
     EXPECT_EQ(read_text(folder_ / "run/chain.csv"), chain);
-    EXPECT_FALSE(fs::exists(folder_ / "results"));
   };
-  for (const char *name : {"field.csv", "./field.csv", "hard.csv", "soft.csv", "here/here/field.csv"}) {
-    std::vector<std::string> words = {"field.csv", "--export", name};
-    words.insert(words.end(), as_measured.begin(), as_measured.end());
-    refused(words, std::string("--export is '") + name +
-                       "'; allowed: another file than RECORD 'field.csv', which is read");
-  }
-  for (const char *record : {"run", "run/chain.csv"}) // what a run is read from
-    for (const char *file : {"run/chain.csv", "run/cycles.csv", "run/parameters.csv"})
-      refused({record, "--export", file},
-              std::string("--export is '") + file + "'; allowed: another file than RECORD");
-  refused({"run", "--export", "results/meter/meter.csv"},
-          "--export is 'results/meter/meter.csv'; allowed: another file than --out 'results/meter', which is "
-          "written, too");
   write_files({{folder_ / "run/meter.csv", "of an earlier call"}});
   refused({"run", "--out", "run"},
           "--out is 'run'; allowed: another folder than RECORD 'run/chain.csv', which is read");
@@ -318,8 +300,7 @@ TEST_F(MeterCommand, KeepsTheRecord) {
 
 TEST_F(MeterCommand, RecordOfARun) {
   write_chain_run(folder_ / "run", "II", Transition::B, 20);
-  const Outcome outcome =
-      meter({"run", "--export", "passes/all.csv", "--drum-radius", "0.759", "--drum-width", "2.13"});
+  const Outcome outcome = meter({"run", "--drum-radius", "0.759", "--drum-width", "2.13"});
   ASSERT_EQ(outcome.status, 0) << outcome.output;
   EXPECT_TRUE(printed(outcome, {"run/chain.csv: partial uplift, CMV 15", "may be off by",
                                 "E_vib: the forces are those of the whole drum, 2.13 m wide."}));
@@ -331,7 +312,6 @@ TEST_F(MeterCommand, RecordOfARun) {
   for (const char *name :
        {"index.html", "figures/values.png", "figures/spectrum.png", "figures/loop.png", "data/loop.csv"})
     EXPECT_TRUE(fs::exists(out / name)) << name;
-  EXPECT_EQ(lines_of(read_text(folder_ / "passes/all.csv")).size(), 3U);
   EXPECT_EQ(meter({"run"}).status, 0); // replaces the earlier page
   write_files({{folder_ / "mine", "x"}});
   fs::create_directories(folder_ / "other");
@@ -447,23 +427,6 @@ TEST_F(MeterCommand, ShowsWhatItUnderstands) {
   EXPECT_FALSE(fs::exists(folder_ / "results/meter/meter.csv"));
   // A column by its number; a frequency is not needed.
   EXPECT_EQ(meter({"gap.csv", "--show", "--column", "time=1:ms", "--column", "a_drum=2:-g"}).status, 0);
-}
-
-// What meter --export writes, with a comma in the name of its last column, can be read as any other table.
-TEST_F(MeterCommand, TheExportedTableCanBeReadBack) {
-  write_chain_run(folder_ / "run", "II", Transition::B, 40);
-  ASSERT_EQ(meter({"run", "--export", "passes.csv"}).status, 0);
-  const Table values = read_table(folder_ / "results/meter/meter.csv");
-  const MeasuredTable passes(folder_ / "passes.csv");
-  ASSERT_EQ(passes.rows(), values.rows());
-  ASSERT_TRUE(passes.find("LastTemp,_c").has_value());
-  ClockDays day;
-  const std::vector<double> times = passes.clock_times(passes.find("Time").value(), day);
-  const std::vector<double> cmv = passes.numbers(passes.find("LastCMV").value());
-  for (std::size_t row = 0; row < cmv.size(); ++row) {
-    EXPECT_NEAR(times[row], values.numbers("begin [s]")[row], 5e-4);
-    EXPECT_NEAR(cmv[row], values.numbers("CMV [-]")[row], 0.05);
-  }
 }
 
 TEST_F(MeterCommand, RecordsThatAreRefused) {

@@ -97,14 +97,8 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
       {"advise --bed --question force --from nowhere",
        "--from is 'nowhere'; allowed: folders of a study of beds, with plan and runs.csv"},
       {"advise --bed --question force --k 1e8", "--k is '1e8'; allowed: without --bed"},
-      {"advise --within 5%", "--within is '5%'; allowed: with --bed or --ends"},
-      {"advise --ends", "--question is ''; allowed: regime, tilt, contact"},
-      {"advise --ends --question force", "--question is 'force'; allowed: regime, tilt, contact"},
-      {"advise --ends --question tilt --within 2mm", "--within is '2mm'; allowed: a share above 0"},
-      {"advise --ends --question tilt --k 1e8", "--k is '1e8'; allowed: without --ends"},
-      {"advise --ends --bed --question tilt", "--ends is 'given'; allowed: without --bed"},
-      {"advise --ends --question tilt --from nowhere",
-       "--from is 'nowhere'; allowed: folders of a study of contacts, with contacts.csv"},
+      {"advise --within 5%", "--within is '5%'; allowed: with --bed"},
+      {"advise --ends --question tilt", "--ends is 'given'; allowed: none; inputs/study/ends/findings.md"},
       {"study fidelity --balls 5 --out o", "--balls is '5'; allowed: a whole number from 100"},
       {"advise --case LONG", "... (5000 characters)'; allowed: I, II, III, IV"},
       {"bed --width 1e18", "--width is '1e18'; allowed: a number from 1e-06 to 100000 [m]"},
@@ -179,8 +173,9 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
       {"meter r --case BW120-63Hz", "... inputs/rollers/BW120 --setting 63Hz"},
       {"identify r --roller ''", "--roller is ''; allowed: "},
       {"identify r --case Axas2020-29Hz", "... inputs/rollers/Axas2020 --setting 29Hz"},
-      {"meter r --speed 3", "--speed is '3'; allowed: only with --export"},
-      {"meter r --pass 2", "--pass is '2'; allowed: only with --export"},
+      {"meter r --export=all.csv --speed 3", "--export is 'given'; allowed: none; meter.csv in --out"},
+      {"passes --field site.csv", "--field is 'given'; allowed: none, but folders of runs: FOLDER..."},
+      {"passes", "... FOLDER is required"},
       {"map --x k:1e6:1e8:5 --k 3e6", "--k is '3e6'; allowed: not together with the axis k of --x"},
       {"map --x k:1e6:1e8:5 --identify -1", "--identify is '-1'; allowed: a whole number from 0 to 1000000"},
       {"map --x k:1e6:1e8:5 --y D:0.1:0.5:3 --identify 2",
@@ -440,19 +435,6 @@ TEST_F(ToolOptions, ADataSheetIsEnoughForAllCommands) {
   EXPECT_TRUE(printed(well(run(words)), {"nominal amplitude       1.8 mm", "k_B "}));
   EXPECT_TRUE(printed(well(run({"advise", "--roller", "mine", "--k", "45e6", "--D", "0.25"})),
                       {"frame frequency         4.82 Hz", " -var roller mine -var k 45e6 -var D 0.25 "}));
-}
-
-// The fewest contacts along the width whose error, as measured in the project's study, is within that
-// allowed.
-TEST_F(ToolOptions, AdviceOnADrumThatTilts) {
-  EXPECT_TRUE(
-      printed(well(run({"advise", "--ends", "--question", "regime", "--within", "15%"})),
-              {"4 contacts\n", "27.5 % with 2, 12.5 % with 4, 10 % with 8", "without loss of contact two"}));
-  EXPECT_TRUE(printed(well(run({"advise", "--ends", "--question", "tilt"})), "8 contacts\n"));
-  EXPECT_TRUE(
-      printed(well(run({"advise", "--ends", "--question", "contact", "--within", "0.1"})), "8 contacts\n"));
-  EXPECT_TRUE(printed(well(run({"advise", "--ends", "--question", "tilt", "--within", "1%"})),
-                      {"16 contacts\n", "compare with 32 contacts"}));
 }
 
 // What is advised for a roller holds for a run of the deck with the same file.

@@ -7,7 +7,6 @@
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
 #include "tests/support/chain_record.h"
-#include "tests/support/lines.h"
 #include "tests/support/piecewise_oracle.h"
 
 #include <gtest/gtest.h>
@@ -438,26 +437,6 @@ TEST(Meter, WindowsEndWithTheRecord) {
   MeterOptions longer;
   longer.window = 48;
   EXPECT_THROW(meter_windows(record, longer), std::runtime_error);
-}
-
-TEST(Meter, AllPassesFileOfCompactionSoftware) {
-  MeterResult result;
-  result.record = synthetic(50.0, 40, {{0.5, 1.0}, {1.0, 40.0}, {2.0, 16.0}});
-  result.cycles = meter_cycles(result.record);
-  result.windows = meter_windows(result.cycles, result.options);
-  const std::string text = all_passes_csv(result, {});
-  const std::vector<std::string> lines = lines_of(text);
-  ASSERT_EQ(lines.size(), 5U);
-  EXPECT_EQ(lines[0].substr(0, 26), "Time,CellN_m,CellE_m,Eleva");
-  EXPECT_EQ(lines[0].substr(lines[0].size() - 12), "LastTemp,_c\r");
-  // 40 / (40 pi)^2 = 2.53 mm
-  EXPECT_EQ(lines[1],
-            "2000/Jan/01 "
-            "00:00:00.300,0.00,0.00,?,1,?,?,?,?,?,?,?,Yes,?,120.0,?,?,?,2.5,20.0,2.53,?,Forward,On,?\r");
-  EXPECT_EQ(lines[2].substr(0, 30), "2000/Jan/01 00:00:00.800,0.34,");
-  PassOptions slow;
-  slow.speed = 1.0; // 0.14 m in a window: the later window of a cell counts
-  EXPECT_EQ(lines_of(all_passes_csv(result, slow)).size(), 3U);
 }
 
 } // namespace
