@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -258,8 +259,9 @@ private:
     double *const sums =
         stepping_->damping(); // read before the loop: the compiler cannot know that it does not change
     for (int n = first; n < end; ++n) {
-      sums[contacts_[n].i] += block.dashpot[n];
-      if constexpr (!at_walls) sums[contacts_[n].j] += block.dashpot[n];
+      const double root = std::sqrt(block.dashpot[n]);
+      sums[contacts_[n].i] += root;
+      if constexpr (!at_walls) sums[contacts_[n].j] += root;
     }
   }
 

@@ -17,11 +17,11 @@
 
 namespace LAMMPS_NS {
 
-/// Stores for each ball, ghosts included, its velocity at the beginning of the step and the sum of c/m over
-/// its contacts in the last step. Solves for coupled contacts when all forces of a step are known. In a step
-/// in which a contact begins or ends, the closing half kick needs another force than the next opening half
-/// kick: the fix changes the forces between the two, at the end of the step, and applies position
-/// corrections.
+/// Stores for each ball, ghosts included, its velocity at the beginning of the step and the sum of sqrt(c)/m
+/// over its contacts in the last step (see CoupledDashpot). Solves for coupled contacts when all forces of a
+/// step are known. In a step in which a contact begins or ends, the closing half kick needs another force
+/// than the next opening half kick: the fix changes the forces between the two, at the end of the step, and
+/// applies position corrections.
 ///
 /// It writes nothing to restart files: the set-up of a restarted run computes these values from positions,
 /// velocities and contact history.
@@ -103,8 +103,8 @@ public:
   /// Whether a component of the velocity of ball i does not depend on the forces on it. Known when forces are
   /// computed.
   bool is_driven(int i, std::size_t component) const { return is_moved(i) && is_unchanged(i, component); }
-  /// Sum of c/m over the contacts of ball i (owned or ghost) in the last step, 1/s; 0 if it was not computed,
-  /// since no contact could need coupling: see expect_contacts().
+  /// Sum of sqrt(c)/m over the contacts of ball i (owned or ghost) in the last step, sqrt(N s/m)/kg; 0 if it
+  /// was not computed, since no contact could need coupling: see expect_contacts().
   double damping_over_mass(int i) const { return counted_ ? row(i)[sum] : 0.0; }
   /// Whether those sums were computed.
   bool counted() const { return counted_; }
@@ -112,7 +112,7 @@ public:
   bool counting() const { return counting_; }
   /// Adds the damping coefficient c, N s/m, of a contact to the sum of ball i that the next step uses. With
   /// newton off the sum of a ghost is discarded: its owner computes the contact, too.
-  void add_damping(int i, double c) { damping_[static_cast<std::size_t>(i)] += c; }
+  void add_damping(int i, double c) { damping_[static_cast<std::size_t>(i)] += std::sqrt(c); }
   /// These sums, one for each ball, for inner loops.
   double *damping() { return damping_.data(); }
   /// Announces a link on owned ball i that is not a contact (a bond), with its k, N/m, and c, N s/m. To be
@@ -229,8 +229,8 @@ private:
     int i;
     double k, c;
   };
-  /// Layout of a row of velocity_: its length, all of which ghosts need, and the index of the sum of c/m
-  /// behind the three velocities. Both lie side by side in memory since the inner loop reads both.
+  /// Layout of a row of velocity_: its length, all of which ghosts need, and the index of the sum of
+  /// sqrt(c)/m behind the three velocities. Both lie side by side in memory since the inner loop reads both.
   static constexpr int shared = 4, sum = 3;
   /// The row of ball i. Rows are contiguous in memory, so that the inner loop need not read a pointer per
   /// ball.
@@ -285,9 +285,9 @@ private:
   double expected_dt_ = 0.0; // time step for which counting_ was decided
   std::vector<Expected> expected_; // links that are not contacts
   // One entry per ball:
-  double **velocity_ = nullptr;      // v(t), at the end of a step v*, m/s; sum of c/m in the last step, 1/s
+  double **velocity_ = nullptr;      // v(t), at the end of a step v*, m/s; sum of sqrt(c)/m in the last step
   std::vector<double> inverse_mass_; // 1/ContactSource::mass(), 1/kg, of owned balls
-  std::vector<double> damping_;      // sum of c in this step, N s/m
+  std::vector<double> damping_;      // sum of sqrt(c) in this step
   std::vector<double> gathered_;     // sums of ghosts to be sent to owners, comm_reverse each
   std::deque<Coupled> coupled_;      // of this step
   std::deque<Begun> begun_;          // the same

@@ -214,12 +214,22 @@ void FixBondSpring::post_force_second_order() {
   const physics::LinearLaw law(bond_.stiffness, bond_.damping, physics::Transition::A);
   // A light dashpot is solved for alone: solved for together with a far heavier one its force would lag
   // behind by many steps.
-  const double c_over_m = bond_.damping * state_.inverse_masses;
-  if (!physics::needs_coupling(motion.dt, bond_.stiffness, bond_.damping, c_over_m)) {
-    store(bond_under(physics::implicit_force(law, motion, acted_.force, c_over_m)));
+  const double own = std::sqrt(bond_.damping) * state_.inverse_masses;
+  if (!physics::needs_coupling(motion.dt, bond_.stiffness, bond_.damping, own)) {
+    store(bond_under(
+        physics::implicit_force(law, motion, acted_.force, bond_.damping * state_.inverse_masses)));
     apply(acted_.force);
     return;
   }
+  // The dashpots of contacts beside it lag by the square root of this ratio: see CoupledDashpot.
+  constexpr double most_steps = 1e4;
+  if (const double time_constant = 1.0 / (bond_.damping * state_.inverse_masses);
+      motion.dt > most_steps * time_constant)
+    drumlin::engine::stop(lmp,
+                          fmt::format("fix bond/spring: damping c is '{:.6g} N s/m', with the time "
+                                      "constant m_eff/c of {:.3g} s; allowed: at least {:.3g} s, 1e-4 of "
+                                      "the time step",
+                                      bond_.damping, time_constant, motion.dt / most_steps));
   const physics::CoupledDashpot coupled =
       physics::coupled_dashpot(law, motion, acted_.force, state_.damping_over_mass);
   apply(coupled.first);

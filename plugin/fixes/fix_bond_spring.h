@@ -46,7 +46,7 @@ private:
     double rate_before;                      // with the velocities at the beginning of the step
     std::array<double, 2> inverse_mass;      // of each ball along the bond; 0 if forces do not move it there
     double inverse_masses;                   // their sum
-    double damping_over_mass;                // sum of c/m over the links of both balls
+    double damping_over_mass;                // FixStepping::damping_over_mass() of both balls
     std::array<double, 3> direction;         // from i to j
     std::array<double, 3> velocity_of_image; // of the image of j that is nearest to i, relative to j
   };

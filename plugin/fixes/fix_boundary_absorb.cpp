@@ -176,10 +176,10 @@ physics::Vec3 FixBoundaryAbsorb::force_of_step(int i) {
   const physics::GroundedStep step{u, v, vector_of(stepping_->velocity_before(i)), grounded(i).force,
                                    update->dt};
   if (stepping_->counting()) stepping_->add_damping(i, ball_.along.damping);
-  const double all_c_over_m = stepping_->damping_over_mass(i);
-  if (!physics::needs_coupling(step.dt, ball_.along.stiffness, ball_.along.damping, all_c_over_m))
+  const double all = stepping_->damping_over_mass(i);
+  if (!physics::needs_coupling(step.dt, ball_.along.stiffness, ball_.along.damping, all))
     return physics::implicit_force(ball_, step, atom->rmass[i]);
-  coupled_.emplace_back(i, physics::coupled_ground(ball_, step, all_c_over_m));
+  coupled_.emplace_back(i, physics::coupled_ground(ball_, step, all));
   return coupled_.back().second.first(ball_.normal);
 }
 

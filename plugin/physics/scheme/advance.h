@@ -26,7 +26,7 @@ struct ContactState {
 /// Masses and damping of the two balls, which advance() needs in addition to their motion.
 struct StepContext {
   double m_eff;                   ///< kg
-  double damping_over_mass = 0.0; ///< sum of c/m over all contacts of both balls in the last step, 1/s
+  double damping_over_mass = 0.0; ///< sum of sqrt(c)/m over all contacts of both balls in the last step
   bool in_setup = false;          ///< set-up of a run: velocities belong to the time of the positions
 };
 

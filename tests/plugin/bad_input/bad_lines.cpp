@@ -225,6 +225,9 @@ BadGroup bond_spring() {
       {"unknown keyword", "@ 2 3 1e6 1e4 1e5", "keyword is '1e5' ... length or strength"},
       {"a ball gets lost", "@ 2 3 1e6 1e4\nvelocity frame set 0 0 -1e6",
        "ball is '3', which was lost at step 1 ... both balls in the box", on_two_ranks | in_the_run},
+      {"a damping of far less than a time step", "@ 2 3 1e6 1e14",
+       "damping c is '1e+14 N s/m', with the time constant m_eff/c of 6.67e-12 s ... at least 1e-09 s",
+       in_the_run},
   });
 }
 

@@ -102,8 +102,8 @@ Rebound rebound(const Law &law, bool stock, double dt, double onset) {
     d += dt * (rate - 0.5 * dt * shift);
     const StepMotion motion{d, rate, before, dt};
     const ContactState old = state;
-    // The sum of c/m is that of the contact alone: a heavy dashpot is left for the second pass.
-    const double damping = old.in_contact && d > 0.0 ? law.dashpot(d) : 0.0;
+    // The sum of sqrt(c)/m is that of the contact alone: a heavy dashpot is left for the second pass.
+    const double damping = old.in_contact && d > 0.0 ? std::sqrt(law.dashpot(d)) : 0.0;
     StepResult step = stock ? advance_stock(law, motion, state) : advance(law, motion, state, {1.0, damping});
     if (!stock) heat += heat_of_change(law, motion, old, step, 1.0);
     if (step.coupled)
@@ -345,11 +345,11 @@ TEST(SecondOrderStep, HeavyDashpotsAreLeftForTheSecondPass) {
   const double dt = 1e-4, c = coefficient(2.0), rate = 0.1, overlap = 1e-3;
   const LinearLaw law(k, c, Transition::B);
   ContactState state{2e5, true};
-  const StepResult f = step_of(law, {overlap, rate, rate, dt}, state, 1.0 / dt);
+  const StepResult f = step_of(law, {overlap, rate, rate, dt}, state, 1.0 / (dt * std::sqrt(c)));
   ASSERT_TRUE(f.coupled);
   EXPECT_DOUBLE_EQ(f.kick, 2e5 + k * dt * rate); // the force that changes with the positions
   EXPECT_EQ(drumlin::physics::coupled_force(f.dashpot, -1e3), 0.0);
-  EXPECT_FALSE(step_of(law, {overlap, rate, rate, dt}, state, 0.2 / dt).coupled);
+  EXPECT_FALSE(step_of(law, {overlap, rate, rate, dt}, state, 0.2 / (dt * std::sqrt(c))).coupled);
 }
 
 TEST(SecondOrderStep, BallAtRestThatJustTouchesFeelsNothing) {
@@ -369,12 +369,13 @@ TEST(SecondOrderStep, NeedOfCouplingGrowsWithTheSumOfDampingsAndWithTheSpring) {
   int needed = 0;
   for (int n = 0; n < 10000; ++n) {
     const double dt = 1e-4;
-    const double all = std::pow(10.0, exponent(random)) / dt;    // sum of c/m
+    const double all = std::pow(10.0, exponent(random)) / dt;    // sum of sqrt(c)/m
     const double spring = std::pow(10.0, exponent(random)) / dt; // k/c
     if (!drumlin::physics::needs_coupling(dt, 7.0 * spring, 7.0, all)) continue;
     ++needed;
-    EXPECT_TRUE(drumlin::physics::needs_coupling(dt, 1.5 * spring, 1.0, all));
-    EXPECT_TRUE(drumlin::physics::needs_coupling(dt, spring, 1.0, 1.5 * all));
+    EXPECT_TRUE(drumlin::physics::needs_coupling(dt, 1.5 * 7.0 * spring, 7.0, all));
+    EXPECT_TRUE(drumlin::physics::needs_coupling(dt, 1.5 * 7.0 * spring, 1.5 * 7.0, all));
+    EXPECT_TRUE(drumlin::physics::needs_coupling(dt, 7.0 * spring, 7.0, 1.5 * all));
   }
   EXPECT_GT(needed, 1000);
 }
@@ -426,8 +427,8 @@ TEST(SecondOrderStep, WithoutDashpotAAndBAreOneLaw) {
 }
 
 TEST(SecondOrderStep, ContactWithoutDashpotIsNeverSolvedForWithOthers) {
-  for (const double all_c_over_m : {0.0, 1.0, 1e12})
-    EXPECT_FALSE(drumlin::physics::needs_coupling(1e-4, k, 0.0, all_c_over_m));
+  for (const double all : {0.0, 1.0, 1e12})
+    EXPECT_FALSE(drumlin::physics::needs_coupling(1e-4, k, 0.0, all));
 }
 
 } // namespace

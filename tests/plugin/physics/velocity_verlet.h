@@ -58,7 +58,7 @@ public:
       if (d <= 0.0) continue;
       force_ +=
           p.sign * (advance(p.law, {d, rate, rate, dt_}, p.state, {mass_, 0.0, true}).force - p.suction);
-      damping_ += p.law.dashpot(d) / mass_;
+      damping_ += std::sqrt(p.law.dashpot(d)) / mass_;
     }
   }
 
@@ -79,7 +79,7 @@ public:
       const ContactState old = p.state;
       const StepResult own = advance(p.law, motion, p.state, {mass_, damping_, false});
       const StepResult f = with_suction(own, p.suction, motion, old, false);
-      if (p.state.in_contact) damping += p.law.dashpot(motion.overlap) / mass_;
+      if (p.state.in_contact) damping += std::sqrt(p.law.dashpot(motion.overlap)) / mass_;
       if (f.coupled) coupled.emplace_back(&p, f.dashpot);
       force_ += p.sign * (f.coupled ? f.kick : f.force);
       kick += p.sign * f.kick;
