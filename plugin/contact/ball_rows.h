@@ -121,7 +121,7 @@ inline void store(physics::Numbers &numbers, int n, const Four &four) {
 /// Writes the motion of the balls of `count` contacts to a block. Writes to the three contacts behind them,
 /// too.
 /// \param before rows of four numbers, for the second-order scheme: velocity at the start of the step, m/s,
-/// and the sum of c/m, 1/s, which is zero unless `counted` \returns whether all contacts have the same two
+/// and the sum of sqrt(c)/m, which is zero unless `counted` \returns whether all contacts have the same two
 /// types of balls
 template <bool stepped, class Engine>
 DRUMLIN_FOR_THIS_PROCESSOR bool read_balls(physics::ContactBlock &b, const BallRows &rows,

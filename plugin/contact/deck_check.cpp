@@ -90,6 +90,13 @@ void DeckCheck::look(engine::LAMMPS *lmp, const std::string &command, bool secon
     refuse(lmp, command,
            std::string("atom_style is '") + lmp->atom->atom_style +
                "', whose balls have no mass of their own; allowed: sphere");
+  const double per_force = lmp->force->ftm2v;
+  if (per_force != 1.0)
+    refuse(
+        lmp, command,
+        fmt::format("units is '{}', in which a force is not a mass times an acceleration; allowed: si, cgs, "
+                    "micro, nano or lj",
+                    lmp->update->unit_style));
   check_run(lmp, command);
   // Without the closing command drumlin/variables the faults of declared variables have not been reported.
   char open[] = "drumlin_open";

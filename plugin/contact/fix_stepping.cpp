@@ -89,6 +89,7 @@ void FixStepping::init() {
   comm_reverse =
       most_gathered; // for which the engine makes room at the start of each run; gather() may ask for less
   observers_.find(*modify);
+  between_ = FixBetweenRuns::provide(lmp);
   moved_bits_ = travelling_bits_ = free_bits_ = 0;
   prescribed_bits_ = {};
   varies_ = false;
@@ -153,6 +154,12 @@ void FixStepping::look_for_moved() {
 /// Velocities and masses at the start of the step. Other fixes may have changed them since the last one.
 void FixStepping::open_step() {
   if (!in_use_) return;
+  if (in_setup_)
+    between_->restore_forces([this](int i, const std::array<double, 3> &shift) {
+      for (std::size_t a = 0; a < 3; ++a)
+        atom->f[i][a] += shift[a];
+      shifts_.push_back({i, {}, shift, {}});
+    });
   double **v = atom->v;
   for (int i = 0; i < atom->nlocal; ++i) {
     double *before = row(i);
@@ -262,9 +269,9 @@ void FixStepping::pre_force(int) {
 }
 
 /// Contacts are counted only if one of them could need coupling if a ball touched all its neighbours and
-/// walls at once. needs_coupling() depends monotonically on the sum of c/m and on k/c: if it is false for
-/// these largest values, it is false for all contacts until the next search for neighbours, so that leaving
-/// out the count changes no result.
+/// walls at once. needs_coupling() depends monotonically on c, the sum of sqrt(c)/m and k/c: if it is false
+/// for these largest values, it is false for all contacts until the next search for neighbours, so that
+/// leaving out the count changes no result.
 void FixStepping::expect_contacts() {
   source_ = drumlin::contact_source(lmp);
   const drumlin::ContactSource *const source = source_;
@@ -290,12 +297,12 @@ void FixStepping::expect_contacts() {
     }
   };
   std::visit(expect_pairs, source->table());
-  std::array<double, 2> mine{}; // greatest sum of c/m, and k/c
+  drumlin::physics::Dashpots mine; // the greatest, with the sum over the mass
   if (force->newton_pair) {
     gather(1);
     for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; ++i) {
       gathered_[static_cast<std::size_t>(i)] = ball(i).sum;
-      mine[1] = std::max(mine[1], ball(i).stiffest);
+      mine.take_greatest({0.0, ball(i).strongest, ball(i).stiffest});
     }
     drumlin::engine::reverse_comm(comm, this);
     for (int i = 0; i < atom->nlocal; ++i)
@@ -308,13 +315,15 @@ void FixStepping::expect_contacts() {
     const double inverse_mass = inverse_mass_[static_cast<std::size_t>(i)];
     if (inverse_mass == 0.0) continue;
     ball(i).add(source->wall_dashpots(i));
-    mine = {std::max(mine[0], ball(i).sum * inverse_mass), std::max(mine[1], ball(i).stiffest)};
+    mine.take_greatest({ball(i).sum * inverse_mass, ball(i).strongest, ball(i).stiffest});
   }
-  std::array<double, 2> all = mine;
-  if (comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 2, MPI_DOUBLE, MPI_MAX, world);
+  drumlin::physics::Dashpots all = mine;
+  constexpr int values = sizeof all / sizeof(double);
+  if (comm->nprocs > 1) MPI_Allreduce(&mine, &all, values, MPI_DOUBLE, MPI_MAX, world);
   // Where time step or coefficients may grow within the run the sums of a step are needed for any of the
   // next.
-  counting_ = varies_ || drumlin::physics::needs_coupling(update->dt, all[1], 1.0, 2.0 * all[0]);
+  counting_ = varies_ || drumlin::physics::needs_coupling(update->dt, all.stiffest * all.strongest,
+                                                          all.strongest, 2.0 * all.sum);
   expected_dt_ = update->dt;
 }
 

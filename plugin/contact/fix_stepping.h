@@ -5,6 +5,7 @@
 
 #include "contact/contact_observer.h"
 #include "contact/contact_source.h"
+#include "contact/fix_between_runs.h"
 #include "engine.h"
 #include "physics/scheme/advance.h"
 #include "physics/laws/friction_law.h"
@@ -17,14 +18,14 @@
 
 namespace LAMMPS_NS {
 
-/// Stores for each ball, ghosts included, its velocity at the beginning of the step and the sum of c/m over
-/// its contacts in the last step. Solves for coupled contacts when all forces of a step are known. In a step
-/// in which a contact begins or ends, the closing half kick needs another force than the next opening half
-/// kick: the fix changes the forces between the two, at the end of the step, and applies position
-/// corrections.
+/// Stores for each ball, ghosts included, its velocity at the beginning of the step and the sum of sqrt(c)/m
+/// over its contacts in the last step (see CoupledDashpot). Solves for coupled contacts when all forces of a
+/// step are known. In a step in which a contact begins or ends, the closing half kick needs another force
+/// than the next opening half kick: the fix changes the forces between the two, at the end of the step, and
+/// applies position corrections.
 ///
-/// It writes nothing to restart files: the set-up of a restarted run computes these values from positions,
-/// velocities and contact history.
+/// It writes nothing to restart files. A run that continues gets from FixBetweenRuns what the step before has
+/// left; what else it needs the set-up computes from positions, velocities and contact history.
 class FixStepping : public drumlin::engine::GhostFix {
 public:
   FixStepping(LAMMPS *, int, char **);
@@ -64,6 +65,16 @@ public:
   /// Whether forces are computed for the set-up of a run: velocities then belong to the time of the
   /// positions.
   bool in_setup() const { return in_setup_; }
+  /// In a set-up: whether any contact continues from the step before it.
+  bool any_continues() const { return in_setup_ && between_->any_continues(); }
+  /// In a set-up, of a contact of balls i and j (j < 0: a wall): whether its stored force is that of the step
+  /// before.
+  bool continues(int i, int j) const { return between_->continues(i) && (j < 0 || between_->continues(j)); }
+  /// In a set-up: see FixBetweenRuns::load().
+  void load(int i, int j, double newton) {
+    between_->load(i, newton);
+    if (j >= 0) between_->load(j, newton);
+  }
   /// Whether this rank computes the force on ball i of a contact: true for an owned ball, and with newton on,
   /// where one rank alone computes the contact, also for a ghost, whose force is sent to its owner. False for
   /// a wall (i = -1).
@@ -91,6 +102,12 @@ public:
       if (atom->mask[item.i] & bits) total = drumlin::physics::sum(total, 1.0, item.shift);
     return total;
   }
+  /// Calls `treat` with the index of each of this rank's balls that has such a force, and the force.
+  template <class Treat>
+  void for_each_shift(const Treat &treat) const {
+    for (const Later &item : shifts_)
+      treat(item.i, item.shift);
+  }
   /// Whether there are balls whose motion, in one direction at least, does not depend on the forces on them:
   /// those of fix move and fix drum/travel, and those that no fix integrates. For this scheme they have
   /// infinite mass in these directions.
@@ -103,8 +120,8 @@ public:
   /// Whether a component of the velocity of ball i does not depend on the forces on it. Known when forces are
   /// computed.
   bool is_driven(int i, std::size_t component) const { return is_moved(i) && is_unchanged(i, component); }
-  /// Sum of c/m over the contacts of ball i (owned or ghost) in the last step, 1/s; 0 if it was not computed,
-  /// since no contact could need coupling: see expect_contacts().
+  /// Sum of sqrt(c)/m over the contacts of ball i (owned or ghost) in the last step, sqrt(N s/m)/kg; 0 if it
+  /// was not computed, since no contact could need coupling: see expect_contacts().
   double damping_over_mass(int i) const { return counted_ ? row(i)[sum] : 0.0; }
   /// Whether those sums were computed.
   bool counted() const { return counted_; }
@@ -112,7 +129,7 @@ public:
   bool counting() const { return counting_; }
   /// Adds the damping coefficient c, N s/m, of a contact to the sum of ball i that the next step uses. With
   /// newton off the sum of a ghost is discarded: its owner computes the contact, too.
-  void add_damping(int i, double c) { damping_[static_cast<std::size_t>(i)] += c; }
+  void add_damping(int i, double c) { damping_[static_cast<std::size_t>(i)] += std::sqrt(c); }
   /// These sums, one for each ball, for inner loops.
   double *damping() { return damping_.data(); }
   /// Announces a link on owned ball i that is not a contact (a bond), with its k, N/m, and c, N s/m. To be
@@ -229,8 +246,8 @@ private:
     int i;
     double k, c;
   };
-  /// Layout of a row of velocity_: its length, all of which ghosts need, and the index of the sum of c/m
-  /// behind the three velocities. Both lie side by side in memory since the inner loop reads both.
+  /// Layout of a row of velocity_: its length, all of which ghosts need, and the index of the sum of
+  /// sqrt(c)/m behind the three velocities. Both lie side by side in memory since the inner loop reads both.
   static constexpr int shared = 4, sum = 3;
   /// The row of ball i. Rows are contiguous in memory, so that the inner loop need not read a pointer per
   /// ball.
@@ -279,15 +296,16 @@ private:
   bool mass_differs_ = false;  // whether one of this rank's has changed since the step before,
   bool masses_change_ = false; // or one of any rank's
   const drumlin::ContactSource *source_ = nullptr; // since the set-up of the run
+  FixBetweenRuns *between_ = nullptr;
   double dt_ = 0.0;
   double told_dt_ = 0.0;     // time step of which the engine has told its fixes
   bool varies_ = false;      // whether a fix may change it, or the coefficients of contacts, within the run
   double expected_dt_ = 0.0; // time step for which counting_ was decided
   std::vector<Expected> expected_; // links that are not contacts
   // One entry per ball:
-  double **velocity_ = nullptr;      // v(t), at the end of a step v*, m/s; sum of c/m in the last step, 1/s
+  double **velocity_ = nullptr;      // v(t), at the end of a step v*, m/s; sum of sqrt(c)/m in the last step
   std::vector<double> inverse_mass_; // 1/ContactSource::mass(), 1/kg, of owned balls
-  std::vector<double> damping_;      // sum of c in this step, N s/m
+  std::vector<double> damping_;      // sum of sqrt(c) in this step
   std::vector<double> gathered_;     // sums of ghosts to be sent to owners, comm_reverse each
   std::deque<Coupled> coupled_;      // of this step
   std::deque<Begun> begun_;          // the same

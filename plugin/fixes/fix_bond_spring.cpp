@@ -53,6 +53,8 @@ FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : GhostFix(la
   }
 }
 
+void FixBondSpring::added() { numbering_ = FixBetweenRuns::provide(lmp)->numbering(); }
+
 int FixBondSpring::setmask() { return FixConst::PRE_NEIGHBOR | FixConst::POST_FORCE; }
 
 void FixBondSpring::init() {
@@ -60,6 +62,12 @@ void FixBondSpring::init() {
   stepping_ = FixStepping::find(lmp);
   observers_.find(*modify);
   clumps_.find(*modify);
+  if (FixBetweenRuns::provide(lmp)->numbering() != numbering_)
+    drumlin::engine::stop(lmp,
+                          fmt::format("fix bond/spring: balls are '{}' and '{}', IDs that other balls may "
+                                      "have now, since balls were renumbered; allowed: delete_atoms with "
+                                      "compress no, or the fix behind it",
+                                      tags_[0], tags_[1]));
   for (const int tag : tags_) {
     int mine = 0;
     for (int i = 0; i < atom->nlocal; ++i)
@@ -187,6 +195,11 @@ void FixBondSpring::setup(int vflag) {
     drumlin::engine::log_message(lmp, text);
   }
   echoed_ = true;
+  int continuing = 0;
+  for (const int i : local_)
+    if (i >= 0 && has_acted_ && stepping_ != nullptr && stepping_->continues(i, -1)) ++continuing;
+  MPI_Allreduce(MPI_IN_PLACE, &continuing, 1, MPI_INT, MPI_SUM, world);
+  continues_ = continuing == 2;
   post_force(vflag);
 }
 
@@ -199,8 +212,15 @@ void FixBondSpring::post_force(int vflag) {
       if (stepping_ && stepping_->counting()) stepping_->add_damping(i, bond_.damping);
       if (observers_.any() && state_.inverse_mass[b] > 0.0) observers_.tell_bond(i, tags_[1 - b], modes(b));
     }
+  if (!update->setupflag) has_acted_ = true;
   if (stepping_ != nullptr && !update->setupflag) return post_force_second_order();
-  store(physics::bond_force(bond_, state_.distance, state_.rate));
+  if (const double tension = acted_.force; continues_ && update->setupflag) {
+    store(bond_under(tension));
+    acted_.force = tension; // to the last bit
+    for (const int i : local_)
+      if (i >= 0) stepping_->load(i, -1, tension);
+  } else
+    store(physics::bond_force(bond_, state_.distance, state_.rate));
   apply(acted_.force);
 }
 
@@ -214,12 +234,22 @@ void FixBondSpring::post_force_second_order() {
   const physics::LinearLaw law(bond_.stiffness, bond_.damping, physics::Transition::A);
   // A light dashpot is solved for alone: solved for together with a far heavier one its force would lag
   // behind by many steps.
-  const double c_over_m = bond_.damping * state_.inverse_masses;
-  if (!physics::needs_coupling(motion.dt, bond_.stiffness, bond_.damping, c_over_m)) {
-    store(bond_under(physics::implicit_force(law, motion, acted_.force, c_over_m)));
+  const double own = std::sqrt(bond_.damping) * state_.inverse_masses;
+  if (!physics::needs_coupling(motion.dt, bond_.stiffness, bond_.damping, own)) {
+    store(bond_under(
+        physics::implicit_force(law, motion, acted_.force, bond_.damping * state_.inverse_masses)));
     apply(acted_.force);
     return;
   }
+  // The dashpots of contacts beside it lag by the square root of this ratio: see CoupledDashpot.
+  constexpr double most_steps = 1e4;
+  if (const double time_constant = 1.0 / (bond_.damping * state_.inverse_masses);
+      motion.dt > most_steps * time_constant)
+    drumlin::engine::stop(lmp,
+                          fmt::format("fix bond/spring: damping c is '{:.6g} N s/m', with the time "
+                                      "constant m_eff/c of {:.3g} s; allowed: at least {:.3g} s, 1e-4 of "
+                                      "the time step",
+                                      bond_.damping, time_constant, motion.dt / most_steps));
   const physics::CoupledDashpot coupled =
       physics::coupled_dashpot(law, motion, acted_.force, state_.damping_over_mass);
   apply(coupled.first);
@@ -281,7 +311,10 @@ void FixBondSpring::store(const physics::BondForce &acting) {
 }
 
 void FixBondSpring::write_restart(FILE *file) {
-  drumlin::write_restart_record(file, comm->me, {current_length_ ? -1.0 : bond_.length, whole_ ? 1.0 : 0.0});
+  // Files of versions up to 0.4.0 end behind the second number, which is 0 or 1 there.
+  drumlin::write_restart_record(file, comm->me,
+                                {current_length_ ? -1.0 : bond_.length, (whole_ ? 1.0 : 0.0) + 2.0,
+                                 has_acted_ ? acted_.force : NAN, bond_.stiffness, bond_.damping});
 }
 
 void FixBondSpring::restart(char *buffer) {
@@ -290,7 +323,10 @@ void FixBondSpring::restart(char *buffer) {
     bond_.length = state[0];
     current_length_ = false;
   }
-  whole_ = state[1] != 0.0;
+  whole_ = state[1] != 0.0 && state[1] != 2.0;
+  if (state[1] < 2.0 || state[3] != bond_.stiffness || state[4] != bond_.damping) return;
+  acted_.force = state[2];
+  has_acted_ = !std::isnan(acted_.force);
 }
 
 double FixBondSpring::compute_vector(int n) {

@@ -95,7 +95,7 @@ physics::Dashpots PairSource::wall_dashpots(int i) const {
             add_dashpot(one, contact, mass(i), radius_for<std::decay_t<decltype(contact)>>(r), 2.0 * r);
           },
           wall);
-      strongest = {std::max(strongest.sum, one.sum), std::max(strongest.stiffest, one.stiffest)};
+      strongest.take_greatest(one);
     }
     all.add(strongest);
   }

@@ -89,6 +89,17 @@ TEST_P(Chain, FollowsTheDirectSolver) {
   }
 }
 
+// The bond's dashpot is up to 1e5 times that of the soil, and its time constant 1/40 of the time step.
+TEST(ChainWithAnOverdampedBond, FollowsTheDirectSolver) {
+  ChainParameters p = post::table1_case("II", Transition::B);
+  for (const double c23 : {1e8, 1e9, 1e10}) {
+    p.c23 = c23;
+    const ChainRun run =
+        run_chain("II", Transition::B, 2000, 200, {{"c23", number(c23)}, {"stepping", "second"}});
+    EXPECT_LT(velocity_error(run.history, reference_of(p, 200).history), 1e-3) << c23;
+  }
+}
+
 TEST_P(Chain, StartsFromStaticEquilibrium) {
   const ChainParameters p = GetParam().parameters();
   const ChainHistory h = run_chain(GetParam().name, p.transition, 200, 200, {{"cycles", "1"}}).history;

@@ -173,13 +173,13 @@ struct CoupledGround {
   }
 };
 
-/// \param all_c_over_m sum of c/m over all links of the ball and of its partners, 1/s
+/// \param all sum of sqrt(C)/m over all links of the ball and of its partners: see CoupledDashpot
 [[nodiscard]] inline CoupledGround coupled_ground(const GroundedBall &ball, const GroundedStep &step,
-                                                  double all_c_over_m) {
+                                                  double all) {
   CoupledGround coupled{};
   detail::for_each_part(ball, step,
                         [&](std::size_t p, const LinearLaw &law, const StepMotion &motion, double F) {
-                          coupled.parts[p] = coupled_dashpot(law, motion, F, all_c_over_m);
+                          coupled.parts[p] = coupled_dashpot(law, motion, F, all);
                         });
   return coupled;
 }

@@ -9,6 +9,7 @@
 #include "physics/laws/contact_law.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace drumlin::physics {
@@ -55,26 +56,30 @@ template <class Law>
 /// Whether a link's dashpot must be solved for together with the others of its balls: see CoupledDashpot.
 ///
 /// Solving for each link alone costs less and its dashpot force does not lag. It is stable up to 0.7 of the
-/// limit of the springs (searched in tests/plugin/physics/time_step_test.cpp) if dt sum c/m <= 0.25, and also
-/// if dt sum c/m <= 0.75 and dt^2 sum k/m <= 0.5, which is far from the limit of the springs. sum k/m is
-/// estimated as k/c times sum c/m, exact where all contacts are alike. False for a link without a dashpot.
-/// \param all_c_over_m sum of c/m over all contacts of both balls, 1/s
-[[nodiscard]] inline bool needs_coupling(double dt, double k, double c, double all_c_over_m) {
-  const double dashpots = dt * all_c_over_m;
-  return dashpots > 0.25 && c > 0.0 && (dashpots > 0.75 || dashpots * dt * k > 0.5 * c);
+/// limit of the springs (searched in tests/plugin/physics/time_step_test.cpp) if dt R <= 0.25, and also if
+/// dt R <= 0.75 and dt^2 R k/c <= 0.5, which is far from the limit of the springs. R = sqrt(c) sum sqrt(c)/m
+/// is the sum of c/m, and R k/c that of k/m, where all contacts are alike. False for a link without a
+/// dashpot. \param all sum of sqrt(c)/m over all contacts of both balls, sqrt(N s/m)/kg
+[[nodiscard]] inline bool needs_coupling(double dt, double k, double c, double all) {
+  const double squared = dt * dt * c * all * all; // (dt R)^2: a root would take time in each contact
+  return squared > 0.0625 && c > 0.0 && (squared > 0.5625 || squared * dt * dt * k * k > 0.25 * c * c);
 }
 
 /// The dashpots that may act on a ball at once, as far as needs_coupling() depends on them.
 struct Dashpots {
-  double sum = 0.0;      ///< of c, N s/m
-  double stiffest = 0.0; ///< greatest k/c, 1/s; infinite if there is a spring without dashpot
+  double sum = 0.0;       ///< of sqrt(c), c in N s/m
+  double strongest = 0.0; ///< greatest c, N s/m
+  double stiffest = 0.0;  ///< greatest k/c, 1/s; infinite if there is a spring without dashpot
 
-  void add(double k, double c) {
-    sum += c;
-    stiffest = std::max(stiffest, k / c);
-  }
+  void add(double k, double c) { add({std::sqrt(c), c, k / c}); }
   void add(const Dashpots &other) {
-    sum += other.sum;
+    const double both = sum + other.sum;
+    take_greatest(other);
+    sum = both;
+  }
+  void take_greatest(const Dashpots &other) {
+    sum = std::max(sum, other.sum);
+    strongest = std::max(strongest, other.strongest);
     stiffest = std::max(stiffest, other.stiffest);
   }
 };
@@ -84,11 +89,12 @@ struct Dashpots {
 /// and all other forces follow the acceleration a and the velocity v* = v+ + dt/2 a. In the second, with d'*
 /// the rate of the overlap with the velocities v*, each dashpot exerts
 ///   f = (C d'* + s f_old) / (1 + s),   f_old = F_old - E_old
-/// with s = dt/2 times the sum of c/m over all links of both balls. The exact solution has, in place of s/C,
-/// the matrix B_ab = dt/2 n_a.n_b / m of all links of a ball:  f = C (d'* - B (f - f_old)).  By
-/// Cauchy-Schwarz the diagonal matrix of s/C is not less than B: the dashpot forces lag by a step at most,
-/// which cannot create energy, and the limit of the springs is that without damping. For one link alone both
-/// solutions are the same.
+/// with s = dt/2 sqrt(C) times the sum of sqrt(C)/m over all links of both balls. The exact solution has, in
+/// place of s/C, the matrix B_ab = dt/2 n_a.n_b / m of all links of a ball:  f = C (d'* - B (f - f_old)).  By
+/// Cauchy-Schwarz, (sum x_a)^2 <= sum w_a sum x_a^2/w_a for any weights w > 0, here sqrt(C), the diagonal
+/// matrix of s/C is not less than B: the dashpot forces lag behind, which cannot create energy, and the limit
+/// of the springs is that without damping. (With the weights C, a light dashpot beside a heavy one would lag
+/// by as many steps as that one has s.) For one link alone both solutions are the same.
 struct CoupledDashpot {
   double first;    ///< F_old + E - E_old, N: force in the first pass
   double at_rest;  ///< E + s f_old / (1 + s), N: force at d'* = 0
@@ -96,14 +102,14 @@ struct CoupledDashpot {
   double least;    ///< lower limit of the force, N: 0 under B, which never pulls; minus infinity under A
 };
 
-/// \param all_c_over_m sum of c/m over all links of both balls, 1/s
+/// \param all sum of sqrt(C)/m over all links of both balls, sqrt(N s/m)/kg
 template <class Law>
 [[nodiscard]] inline CoupledDashpot coupled_dashpot(const Law &law, const StepMotion &motion,
-                                                    double force_before, double all_c_over_m) {
+                                                    double force_before, double all) {
   const double change = law.spring_change(motion.overlap, motion.rate_half, motion.dt);
   const double elastic = law.spring(motion.overlap);
   const double dashpot_before = force_before - (elastic - change);
-  const double s = 0.5 * motion.dt * all_c_over_m;
+  const double s = 0.5 * motion.dt * std::sqrt(law.dashpot(motion.overlap)) * all;
   const double slowed = 1.0 / (1.0 + s);
   return {force_before + change, elastic + slowed * s * dashpot_before, slowed * law.dashpot(motion.overlap),
           law.limited(-std::numeric_limits<double>::infinity())};

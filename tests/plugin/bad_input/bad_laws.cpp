@@ -52,6 +52,22 @@ BadInput twice_in_a_hybrid() {
   return input;
 }
 
+/// A second scene in the deck: two balls that touch on both sides of a thin periodic box.
+std::string thin_box(const std::string &units, bool lammps) {
+  const std::string begin = lammps ? "plugin load ${plugin}\natom_style sphere\ncomm_modify vel yes\n"
+                                   : "atom_style granular\ncommunicate single vel yes\n";
+  const std::string law = lammps ? "pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2\n"
+                                 : "pair_style gran model hooke/transition\npair_coeff * *\n"
+                                   "fix kn all property/global kn peratomtypepair 1 1e5\n"
+                                   "fix D all property/global dampingRatio peratomtypepair 1 0.2\n";
+  return "clear\nunits " + units + "\n" + begin +
+         "atom_modify map array sort 0 0\nnewton off\nboundary p f f\n"
+         "region box block 0 0.198 -0.2 0.2 -0.2 0.2 units box\ncreate_box 1 box\n"
+         "neighbor 0.002 bin\ncreate_atoms 1 single 0.05 0 0 units box\n"
+         "create_atoms 1 single 0.149 0 0 units box\nset group all diameter 0.1\nset group all mass 1\n" +
+         law + "fix integrate all nve/sphere\ntimestep 1e-5\nrun 1";
+}
+
 BadGroup pair_style() {
   const std::string kn = property("kn", "1e7"), ratio = property("dampingRatio", "0.5");
   BadGroup group = settings_of(
@@ -109,6 +125,15 @@ BadGroup pair_style() {
        {"pair_style gran model hooke/transition: stepping is 'second' and there is a fix continuum/weighted",
         "stepping stock"},
        on_two_ranks});
+  group.inputs.push_back({"balls that get other IDs",
+                          with_other_ids(),
+                          {"pair_style gran model hooke/transition: history of contacts is 'of other balls'",
+                           "delete_atoms with compress no"},
+                          on_two_ranks});
+  group.inputs.push_back({"two contacts of two balls",
+                          thin_box("si", false),
+                          {"periodic box is '0.198 m' along x, in which balls 1 and 2 can touch on two sides",
+                           "at least two cutoffs"}});
   group.inputs.push_back(twice_in_a_hybrid());
   group.inputs.push_back(pair(
       "no kn", "", ratio,
@@ -254,6 +279,16 @@ BadGroup pair_style_in_lammps() {
        "pair_style @ ... fix body (rigid) ... stepping is 'second' ... stepping stock, or fix clump"},
       {"", "fix early all nve/sphere\npair_style @\npair_coeff * * 1e5 0.2\n",
        "pair_style @ ... fix early (nve/sphere) stands before it ... stepping stock"},
+      {"balls that get other IDs",
+       "pair_style @\npair_coeff * * 1e5 0.2\nfix integrate all nve/sphere\nrun 1\ndelete_atoms group soil\n"
+       "run 1",
+       "pair_style @: history of contacts is 'of other balls' ... delete_atoms with compress no",
+       on_two_ranks},
+      {"two contacts of two balls", thin_box("si", true),
+       "periodic box is '0.198 m' along x, in which balls 1 and 2 can touch on two sides ... two cutoffs"},
+      {"units real", thin_box("real", true), "pair_style @: units is 'real' ... si, cgs, micro, nano or lj"},
+      {"units metal", thin_box("metal", true),
+       "pair_style @: units is 'metal' ... si, cgs, micro, nano or lj"},
   });
 }
 

@@ -106,7 +106,7 @@ Vec3 released(const GroundedBall &ball, double m, const Vec3 &start, double time
     if (pass == Pass::alone) {
       force = implicit_force(ball, step, m);
     } else {
-      const CoupledGround coupled = coupled_ground(ball, step, ball.along.damping / m);
+      const CoupledGround coupled = coupled_ground(ball, step, std::sqrt(ball.along.damping) / m);
       force = coupled.second(ball.normal, sum(half, 0.5 * dt / m, coupled.first(ball.normal)));
     }
     v = sum(half, 0.5 * dt / m, force);

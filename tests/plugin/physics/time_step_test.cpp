@@ -245,7 +245,7 @@ struct Packing {
     std::vector<double> damping(mass.size(), 0.0);
     for (const Contact &p : contacts)
       for (const int ball : {p.one, p.other})
-        if (ball >= 0) damping[static_cast<std::size_t>(ball)] += p.c * inverse_mass(ball);
+        if (ball >= 0) damping[static_cast<std::size_t>(ball)] += std::sqrt(p.c) * inverse_mass(ball);
 
     Eigen::MatrixXd step(size, size);
     for (Eigen::Index column = 0; column < size; ++column) {
@@ -337,7 +337,8 @@ private:
   }
 };
 
-/// Balls linked at random to one another and to fixed partners, damping ratios from 0 to 1e4.
+/// Balls linked at random to one another and to fixed partners, damping ratios from 0 to 1e4, under the
+/// second-order scheme to 1e10 beside such ones.
 Packing random_packing(std::mt19937 &random, bool second, bool rubbing) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   Packing packing{{}, unit(random) < 0.5 ? 2.5 : 2.0, second, {}};
@@ -348,7 +349,8 @@ Packing random_packing(std::mt19937 &random, bool second, bool rubbing) {
   const auto link = [&](int one, int other) {
     const double k = 1e6 * std::pow(10.0, 2.0 * unit(random));
     const double inverse = packing.inverse_mass(one) + packing.inverse_mass(other);
-    const double c = unit(random) < 0.2 ? 0.0 : 2.0 * level * std::sqrt(k / inverse) * unit(random);
+    const double heavier = second && unit(random) < 0.2 ? std::pow(10.0, 6.0 * unit(random)) : 1.0;
+    const double c = unit(random) < 0.2 ? 0.0 : 2.0 * heavier * level * std::sqrt(k / inverse) * unit(random);
     const double kt = rubbing ? k * unit(random) : 0.0;
     packing.contacts.push_back({one, other, 2.0 * pi * unit(random), k, c, kt,
                                 rubbing ? 0.5 * unit(random) * std::sqrt(kt / inverse) : 0.0});

@@ -38,7 +38,7 @@ public:
       if (d <= 0.0) continue;
       p.state = {p.law.force(d, -p.sign * v), true};
       force_ += p.sign * (p.state.force - p.suction);
-      damping_ += p.law.dashpot(d) / mass_;
+      damping_ += std::sqrt(p.law.dashpot(d)) / mass_;
     }
   }
 
@@ -57,7 +57,7 @@ public:
     for (Partner &p : partners_) {
       const StepMotion motion{overlap(p), -p.sign * half, -p.sign * before, dt_};
       const StepResult f = contact_step(p, motion);
-      if (p.state.in_contact) damping += p.law.dashpot(motion.overlap) / mass_;
+      if (p.state.in_contact) damping += std::sqrt(p.law.dashpot(motion.overlap)) / mass_;
       if (f.coupled) coupled.emplace_back(&p, f.dashpot);
       force_ += p.sign * (f.coupled ? f.kick : f.force);
       kick += p.sign * f.kick;
