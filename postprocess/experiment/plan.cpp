@@ -280,8 +280,11 @@ private:
       if (std::find(ways.begin(), ways.end(), words[2]) == ways.end())
         refuse(fmt::format("NAME UNIT WAY FILE COLUMN, WAY one of {}", fmt::join(ways, ", ")));
       const std::vector<std::string> column(words.begin() + own - 1, words.end()); // may have a unit
-      quantity =
-          column_quantity(words[0], words[1], words[2], words[3], fmt::format("{}", fmt::join(column, " ")));
+      const std::string name = fmt::format("{}", fmt::join(column, " ")), known = column_unit(words[3], name);
+      const bool per_metre = (known == "N" || known == "J") && words[1] == known + "/m"; // beds in the plane
+      if (!known.empty() && words[1] != known && !per_metre)
+        refuse(fmt::format("NAME UNIT WAY FILE COLUMN, UNIT {}, that of the column", known));
+      quantity = column_quantity(words[0], words[1], words[2], words[3], name);
     } else {
       refuse("the name of a bed's quantity, or NAME UNIT WAY FILE COLUMN");
     }
