@@ -436,7 +436,8 @@ private:
     layer.packing.sieve = sizes;
     if (sizes) layer.packing.sieve_name = words[1];
     if (has_density)
-      layer.pouring = Pouring{density, 0.0, 0.0, 0.0, 0.0, 0.0}; // check_bed() looks up how to pour it
+      layer.pouring =
+          Pouring{density, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; // check_bed() looks up how to pour it
     bed().layers.push_back(layer);
   }
   void take_spot() {
@@ -533,11 +534,11 @@ private:
       if (layer.pouring.has_value() != scene.bed->layers.front().pouring.has_value())
         refuse("relative_density of all layers, or of none");
       if (layer.pouring) {
-        const std::optional<std::string> packings = packings_file(layer.packing);
-        if (!packings)
+        const MeasuredPackings packings = read_packings(input_file(packings_file(layer.packing)));
+        if (!other_balls(packings, layer.packing).empty())
           refuse("relative_density of layers without sizes of their own, whose radii have the ratio of case "
                  "gravel");
-        layer.pouring = read_packings(input_file(*packings)).pouring(layer.pouring->relative_density);
+        layer.pouring = packings.pouring(layer.pouring->relative_density);
       }
       layer.packing.balls = balls_of(layer);
     }

@@ -476,6 +476,8 @@ BadGroup check() {
       {"unknown rule", "@ k 1 small", "rule for variable k is 'small' ... multiple_of", on_two_ranks},
       {"no choice", "@ k 1 one_of", "word of rule one_of for variable k is missing"},
       {"another choice", "@ k z one_of x y", "variable k is 'z' ... x or y"},
+      {"another value", "@ k 0.8,0.5 same_as 0.8 of the soil",
+       "variable k is '0.8,0.5'; allowed: 0.8, of the soil"},
       {"words left over", "@ k 1 positive 2",
        "argument behind the rule for variable k is '2' ... one value and one rule"},
       {"not positive", "@ k 0 positive", "variable k is '0' ... a finite number > 0"},
