@@ -47,6 +47,7 @@ public:
   void run() {
     using Rule = void (Check::*)();
     const std::vector<std::pair<std::string, Rule>> rules = {{"one_of", &Check::one_of},
+                                                             {"same_as", &Check::same_as},
                                                              {"positive", &Check::positive},
                                                              {"non_negative", &Check::non_negative},
                                                              {"finite", &Check::finite},
@@ -99,6 +100,17 @@ private:
     if (std::find(choices.begin(), choices.end(), value_) == choices.end()) reject(join_choices(choices));
   }
 
+  /// What is not noted contradicts nothing.
+  void same_as() {
+    const std::string other = in_.word("rule same_as, the other value");
+    const std::string of = in_.empty() ? "" : ", " + rest();
+    if (other == "unknown") return;
+    const std::vector<std::string> a = list_entries(value_), b = list_entries(other);
+    bool same = a.size() == b.size() || a.size() == 1 || b.size() == 1;
+    for (std::size_t i = 0; same && i < std::max(a.size(), b.size()); ++i)
+      same = same_value(a[a.size() == 1 ? 0 : i], b[b.size() == 1 ? 0 : i]);
+    if (!same) reject(other + of);
+  }
   void positive() { in(value_, Range::positive, ""); }
   void non_negative() { in(value_, Range::non_negative, ""); }
   void finite() { in(value_, Range::any, ""); }

@@ -4,6 +4,7 @@
 #include "physics/files/roller.h"
 #include "support/arguments.h"
 
+#include <cstdio>
 #include <fmt/format.h>
 #include <stdexcept>
 #include <utility>
@@ -20,7 +21,8 @@ std::optional<Roller> shared_roller(LAMMPS *lmp, const std::string &file) {
   int is_roller = 0;
   if (lmp->comm->me == 0) try {
       text = roller_text(file);
-      read_roller(text, file);
+      for (const std::string &warning : read_roller(text, file).warnings)
+        fmt::print(stderr, "WARNING: drumlin/roller: {}\n", warning);
       is_roller = 1;
     } catch (const std::invalid_argument &error) {
       text = error.what();

@@ -9,18 +9,12 @@
 #include "lammps.h"
 #include "signal_handling.h"
 
-#include <csignal>
-
 DRUMLIN_SHOWN int drumlin_main(int argc, char **argv) {
-  namespace SignalHandler = LAMMPS_NS::SignalHandler;
-  std::signal(SIGINT, SignalHandler::int_handler); // a scheduler's SIGTERM is handled the same way
-  std::signal(SIGTERM, SignalHandler::int_handler);
-  std::signal(SIGUSR1, SignalHandler::usr1_handler);
   MPI_Init(&argc, &argv);
   auto *engine = new LAMMPS_NS::LAMMPS(argc, argv, MPI_COMM_WORLD);
   drumlin_register(engine->input);
   engine->input->file();
-  if (SignalHandler::request_quit) drumlin::stop("stopped by a signal before the end of the deck");
+  if (LAMMPS_NS::SignalHandler::request_quit) drumlin::stop("stopped by a signal before the end of the deck");
   delete engine;
   MPI_Finalize();
   return 0;

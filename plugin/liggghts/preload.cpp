@@ -15,6 +15,7 @@
 
 #include "stub.h"
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <dlfcn.h>
@@ -27,7 +28,6 @@ using drumlin::stop;
 constexpr const char *input_file_symbol = "_ZN9LAMMPS_NS5Input4fileEv";
 constexpr const char *post_create_symbol = "_ZN9LAMMPS_NS6LAMMPS11post_createEv";
 constexpr const char *special_messages_symbol = "_ZN9LAMMPS_NS15SpecialMessagesC1EPNS_6LAMMPSE";
-constexpr const char *request_quit_symbol = "_ZN9LAMMPS_NS13SignalHandler12request_quitE";
 constexpr const char *liggghts_symbol = "_ZN8LIGGGHTS10PairStyles7Factory8instanceEv";
 
 /// The file that defines a symbol, with symbolic links resolved: the name of the engine's library then ends
@@ -101,20 +101,62 @@ bool is_engine(Main program) {
          of_engine.dli_fbase == of_program.dli_fbase;
 }
 
-/// The plugin's main program for such an engine.
+/// The variables of the engine's LAMMPS_NS::SignalHandler; nullptr in other programs.
+struct {
+  bool *quit = nullptr, *write_restart = nullptr, *may_write_restart = nullptr;
+} requests;
+
+void find_requests() {
+  const auto find = [](const char *name) { return static_cast<bool *>(dlsym(RTLD_DEFAULT, name)); };
+  requests = {find("_ZN9LAMMPS_NS13SignalHandler12request_quitE"),
+              find("_ZN9LAMMPS_NS13SignalHandler21request_write_restartE"),
+              find("_ZN9LAMMPS_NS13SignalHandler22enable_restart_writingE")};
+}
+
+void request_restart() {
+  if (requests.write_restart != nullptr && requests.may_write_restart != nullptr &&
+      *requests.may_write_restart)
+    *requests.write_restart = true;
+}
+
+} // namespace
+
+// Replace the engine's LAMMPS_NS::SignalHandler::int_handler() and usr1_handler(), which allocate memory: a
+// signal that comes within malloc(), as most do while the engine starts, would wait for its lock for ever.
+extern "C" __attribute__((visibility("default"))) void
+drumlin_int_handler(int) __asm__("_ZN9LAMMPS_NS13SignalHandler11int_handlerEi");
+
+void drumlin_int_handler(int) {
+  if (requests.quit == nullptr || *requests.quit) std::_Exit(EXIT_FAILURE); // the second signal
+  request_restart();
+  *requests.quit = true;
+}
+
+extern "C" __attribute__((visibility("default"))) void
+drumlin_usr1_handler(int) __asm__("_ZN9LAMMPS_NS13SignalHandler12usr1_handlerEi");
+
+void drumlin_usr1_handler(int) { request_restart(); }
+
+namespace {
+
+/// The plugin's main program for an engine that is one program.
 int run_engine(int argc, char **argv, char **) {
+  for (const int number : {SIGINT, SIGTERM}) // a scheduler's SIGTERM is handled as Ctrl-C
+    std::signal(number, drumlin_int_handler);
+  std::signal(SIGUSR1, drumlin_usr1_handler);
   std::string why;
   void *handle = open_plugin(why);
   if (handle == nullptr) stop(why);
   return reinterpret_cast<int (*)(int, char **)>(dlsym(handle, "drumlin_main"))(argc, argv);
 }
 
-/// Sets standard output of an engine to line buffering: when it is redirected, the texts of error->one()
-/// would be lost otherwise. The environment variable keeps Open MPI in this process from adding eight lines
-/// on MPI_Abort to each error; messages of mpirun are not affected.
-__attribute__((constructor)) void make_errors_visible() {
+/// Finds what the handlers of signals need, and sets standard output of an engine to line buffering: when it
+/// is redirected, the texts of error->one() would be lost otherwise. The environment variable keeps Open MPI
+/// in this process from adding eight lines on MPI_Abort to each error; messages of mpirun are not affected.
+__attribute__((constructor)) void prepare_engine() {
   if (dlsym(RTLD_DEFAULT, liggghts_symbol) == nullptr) return;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  find_requests();
   ::setenv("OMPI_MCA_orte_execute_quiet", "1", 0); // NOLINT(concurrency-mt-unsafe): before main()
 }
 
@@ -145,11 +187,14 @@ void drumlin_input_file(void *input) {
   const Register registration = load_plugin(reinterpret_cast<const void *>(engine_input_file), why);
   if (registration == nullptr) stop(why);
   registration(input);
-  engine_input_file(input);
   // After a signal the engine finishes the present command, ignores the rest of the deck and exits with
   // status 0. That must be an error.
-  const auto *quit = static_cast<const bool *>(dlsym(RTLD_DEFAULT, request_quit_symbol));
-  if (quit != nullptr && *quit) stop("stopped by a signal before the end of the deck");
+  const auto stop_if_told = [] {
+    if (requests.quit != nullptr && *requests.quit) stop("stopped by a signal before the end of the deck");
+  };
+  stop_if_told();
+  engine_input_file(input);
+  stop_if_told();
 }
 
 // Replaces the engine's LAMMPS_NS::LAMMPS::post_create(). Before the plugin is loaded it only calls the

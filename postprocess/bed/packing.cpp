@@ -303,13 +303,33 @@ double default_cut(const SieveCurve &curve, const PackingOptions &options) {
   return cut_for(curve, options, wanted, height);
 }
 
-std::optional<std::string> packings_file(const PackingOptions &box) {
-  const PackingOptions usual;
-  constexpr double rounding = 1e-9;
-  if (box.sieve || box.grading != usual.grading ||
-      std::abs(box.radius_max / box.radius_min * usual.radius_min / usual.radius_max - 1.0) >= rounding)
-    return std::nullopt;
+namespace {
+
+std::string name_of_grading(const PackingOptions &options) {
+  return options.sieve ? fmt::format("{}_from_{:g}mm", options.sieve_name, options.sieve->smallest() * 1e3)
+                       : grading_name(options.grading);
+}
+
+} // namespace
+
+std::string packings_file(const PackingOptions &box) {
   return box.dimensions() == 2 ? "bed/packings.gravel.csv" : "bed/packings.gravel3d.csv";
+}
+
+std::string other_balls(const MeasuredPackings &packings, const PackingOptions &box) {
+  const double ratio = box.largest_radius() / box.smallest_radius(),
+               measured = (1.0 + packings.spread) / (1.0 - packings.spread);
+  constexpr double rounding = 1e-4; // of a spread with a few digits
+  if (name_of_grading(box) == grading_name(Grading::uniform) && packings.dimensions == box.dimensions() &&
+      std::abs(measured / ratio - 1.0) < rounding)
+    return {};
+  const auto balls = [](int dimensions, double largest, const std::string &grading) {
+    return fmt::format("{} with radii from r to {:.4g} r, grading {}", dimensions == 2 ? "discs" : "spheres",
+                       largest, grading);
+  };
+  return fmt::format("packings of {}; it has those of {}",
+                     balls(box.dimensions(), ratio, name_of_grading(box)),
+                     balls(packings.dimensions, measured, grading_name(Grading::uniform)));
 }
 
 std::string BedLayer::invalid() const {
@@ -411,16 +431,11 @@ Sieving sieved_if(const Packing &packing, int dimensions, const Take &take) {
 /// Type of the balls of a layer in the engine: 1, then 4, 5, ...
 int type_of(int layer) { return layer == 0 ? 1 : layer + 1 + roller_types; }
 
-std::string name_of_grading(const PackingOptions &options) {
-  return options.sieve ? fmt::format("{}_from_{:g}mm", options.sieve_name, options.sieve->smallest() * 1e3)
-                       : grading_name(options.grading);
-}
-
 /// One of the numbers of Pouring for each layer, separated by commas, the lowest layer first.
-std::string poured_list(const std::vector<BedLayer> &layers, double Pouring::*number) {
+std::string poured_list(const std::vector<BedLayer> &layers, double Pouring::*number, int digits = 6) {
   std::string list;
   for (const BedLayer &layer : layers)
-    list += fmt::format("{}{:.6g}", list.empty() ? "" : ",", (*layer.pouring).*number);
+    list += fmt::format("{}{:.{}g}", list.empty() ? "" : ",", (*layer.pouring).*number, digits);
   return list;
 }
 
@@ -438,6 +453,10 @@ std::string poured_notes(const std::vector<BedLayer> &layers, std::size_t spots)
   for (const auto &[name, number] :
        {std::pair{"pour_friction", &Pouring::friction}, std::pair{"pour_rolling", &Pouring::rolling}})
     notes += fmt::format("# drumlin note {} {}\n", name, poured_list(poured, number));
+  constexpr int all_digits = 15; // in.settle compares these
+  for (const auto &[name, number] : {std::pair{"packings_friction", &Pouring::soil_friction},
+                                     std::pair{"packings_rolling", &Pouring::soil_rolling}})
+    notes += fmt::format("# drumlin note {} {}\n", name, poured_list(poured, number, all_digits));
   return notes;
 }
 
@@ -469,9 +488,9 @@ std::string data_text(const std::vector<PackingOptions> &parts, const std::strin
   }
   // drumlin/take of in.settle reads these lines.
   fmt::format_to(out,
-                 "# drumlin note grading {}\n# drumlin note r_min {}\n# drumlin note r_max {}\n"
-                 "# drumlin note d50 {}\n# drumlin note C_u {}\n",
-                 grading, smallest, largest, medians, uniformities);
+                 "# drumlin note seed {}\n# drumlin note grading {}\n# drumlin note r_min {}\n"
+                 "# drumlin note r_max {}\n# drumlin note d50 {}\n# drumlin note C_u {}\n",
+                 options.seed, grading, smallest, largest, medians, uniformities);
   text += more;
   fmt::format_to(out, "\n{} atoms\n{} atom types\n\n", packing.balls.size(),
                  parts.size() + spots.size() + roller_types);

@@ -66,9 +66,10 @@ double default_share(int dimensions);
 /// cut would be above half of the largest size: hardly a distribution is left of the curve then.
 double default_cut(const SieveCurve &curve, const PackingOptions &options);
 
-/// The file in inputs/ with the loosest and the densest packing that were measured for balls of this grading
-/// and this ratio of largest to smallest radius; nothing if they were not measured.
-std::optional<std::string> packings_file(const PackingOptions &box);
+/// The file in inputs/ with the loosest and the densest packing of balls as `./drumlin bed` makes them.
+std::string packings_file(const PackingOptions &box);
+/// Empty if packings were measured of balls like these; else of which, and of which they should be.
+std::string other_balls(const MeasuredPackings &packings, const PackingOptions &box);
 
 /// A layer of a bed of several, whose balls fall on the layers below when these have come to rest.
 struct BedLayer {

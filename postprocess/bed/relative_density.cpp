@@ -39,9 +39,14 @@ Pouring MeasuredPackings::pouring(double relative) const {
   const double width = high.void_ratio - low.void_ratio;
   const double part = width > 0.0 ? std::clamp((wanted - low.void_ratio) / width, 0.0, 1.0) : 0.0;
   const auto between = [part](double a, double b) { return a + part * (b - a); };
-  return {
-      relative, between(low.friction, high.friction), between(low.rolling, high.rolling), wanted, loosest(),
-      densest()};
+  return {relative,
+          between(low.friction, high.friction),
+          between(low.rolling, high.rolling),
+          wanted,
+          loosest(),
+          densest(),
+          of_loosest().friction,
+          of_loosest().rolling};
 }
 
 double LayerPackings::relative_density(double solid_fraction) const {
@@ -81,8 +86,17 @@ MeasuredPackings read_packings(const std::filesystem::path &file) {
   std::vector<MeasuredPackings::Row> rows;
   for (const DensityRow &row : read_density(file))
     rows.push_back({row.share, row.friction, row.rolling, row.void_ratio});
+  const Table table = read_table(file);
+  for (const char *column : {"dimension", "spread"})
+    if (!table.has(column))
+      csv_fault(file, 0, column,
+                "is missing; allowed: density.csv of this version's in.density, which says of "
+                "which balls it is");
   try {
-    return MeasuredPackings(std::move(rows));
+    MeasuredPackings packings(std::move(rows));
+    packings.dimensions = static_cast<int>(table.numbers("dimension").front());
+    packings.spread = table.numbers("spread").front();
+    return packings;
   } catch (const std::invalid_argument &fault) {
     throw std::runtime_error(fmt::format("{}: allowed: {}", file.string(), fault.what()));
   }

@@ -15,9 +15,10 @@ double relative_density(double void_ratio, double loosest, double densest);
 /// How a layer is poured so that it gets a wanted density.
 struct Pouring {
   double relative_density;
-  double friction, rolling; ///< of the balls while they are poured and come to rest
-  double void_ratio;        ///< that they have then
-  double loosest, densest;  ///< void ratios of their mix
+  double friction, rolling;           ///< of the balls while they are poured and come to rest
+  double void_ratio;                  ///< that they have then
+  double loosest, densest;            ///< void ratios of their mix
+  double soil_friction, soil_rolling; ///< of the soil that has these void ratios, once it lies
 
   double solid_fraction() const { return 1.0 / (1.0 + void_ratio); }
 };
@@ -34,6 +35,9 @@ public:
   /// std::invalid_argument. One packing is one sample: a void ratio that is below that of a smaller share, or
   /// above that of the loosest packing, counts as equal to it.
   explicit MeasuredPackings(std::vector<Row> rows);
+
+  int dimensions = 2;  ///< of the samples
+  double spread = 0.0; ///< radii were between 1 - spread and 1 + spread times their mean, uniformly
 
   double loosest() const { return rows_.back().void_ratio; }
   double densest() const { return rows_.front().void_ratio; }
@@ -62,7 +66,8 @@ std::vector<LayerPackings> noted_packings(const std::map<std::string, std::strin
 /// The layer at a height; that above all layers is the highest one.
 const LayerPackings &layer_at(const std::vector<LayerPackings> &layers, double height);
 
-/// Reads density.csv of in.density; std::runtime_error if it is not one.
+/// Reads density.csv of in.density; std::runtime_error if it is not one, or does not say of which balls it
+/// is.
 MeasuredPackings read_packings(const std::filesystem::path &file);
 
 } // namespace drumlin::post

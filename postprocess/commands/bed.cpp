@@ -119,22 +119,27 @@ void judge_sieve(const Arguments &arguments, BedRequest &request) {
 /// of case gravel.
 MeasuredPackings known_packings(const std::string &file, const std::string &density, bool has_curve,
                                 const PackingOptions &box) {
-  if (!file.empty()) {
-    const fs::path path = path_option("--packings", file);
-    if (!fs::exists(path))
-      throw UsageError(refusal("--packings", file, "the density.csv of a run of inputs/soil/in.density"));
+  if (has_curve)
+    throw UsageError(
+        refusal("--relative-density", density,
+                "of layers without a sieve curve: inputs/soil/in.density makes no packings of one"));
+  const fs::path path = file.empty() ? input_file(packings_file(box)) : path_option("--packings", file);
+  if (!fs::exists(path))
+    throw UsageError(refusal("--packings", file, "the density.csv of a run of inputs/soil/in.density"));
+  const MeasuredPackings packings = [&] {
     try {
       return read_packings(path);
     } catch (const std::runtime_error &fault) {
       throw UsageError(fault.what());
     }
-  }
-  const std::optional<std::string> stored = has_curve ? std::nullopt : packings_file(box);
-  if (!stored)
-    throw UsageError(refusal("--relative-density", density,
-                             "with --packings: the loosest and the densest packing of another mix than that "
-                             "of case gravel are known when inputs/soil/in.density has made them"));
-  return read_packings(input_file(*stored));
+  }();
+  if (const std::string other = other_balls(packings, box); !other.empty())
+    throw UsageError(file.empty()
+                         ? refusal("--relative-density", density,
+                                   "with --packings: the loosest and the densest packing of another mix than "
+                                   "that of case gravel are known when inputs/soil/in.density has made them")
+                         : refusal("--packings", file, other));
+  return packings;
 }
 
 /// What an option given once, or once for each layer, says of a layer; empty: the option is not given.

@@ -4,6 +4,7 @@
 #include "commands/text_options.h"
 #include "passes/page.h"
 #include "passes/tables.h"
+#include "runs/parameter_file.h"
 #include "support/files.h"
 #include "support/options.h"
 
@@ -66,13 +67,14 @@ Task judge(const PassesArguments &arguments) {
   return task;
 }
 
-PassesResult measured(const fs::path &folder, const PassesOptions &options) {
-  const Drive drive = read_drive(folder);
-  try {
-    return measure_passes(drive, options);
-  } catch (const std::invalid_argument &fault) {
-    throw UsageError(fault.what());
-  }
+/// Refuses a run that is no further sample of the scene of the others.
+void check_sample(const Drive &drive, const std::vector<PassesResult> &others) {
+  for (const PassesResult &other : others)
+    if (const std::string why = no_samples(drive.record.parameters, other.parameters); !why.empty())
+      throw UsageError(
+          refusal("FOLDER", drive.folder.string(),
+                  fmt::format("runs that differ in the seed of their beds alone: here and in {} {}",
+                              other.folder.string(), why)));
 }
 
 } // namespace
@@ -81,11 +83,13 @@ void print_passes(const PassesArguments &arguments) {
   const Task task = judge(arguments);
   std::vector<PassesResult> results;
   for (const fs::path &folder : task.folders) {
-    results.push_back(measured(folder, task.options));
-    if (results.back().layers() != results.front().layers())
-      throw UsageError(
-          refusal("FOLDER", folder.string(),
-                  fmt::format("runs of beds with the {} layers of the first", results.front().layers())));
+    const Drive drive = read_drive(folder);
+    check_sample(drive, results);
+    try {
+      results.push_back(measure_passes(drive, task.options));
+    } catch (const std::invalid_argument &fault) {
+      throw UsageError(fault.what());
+    }
   }
   const JudgedMap judged(meter_map(results, cell_meter(arguments.meter)), task.rule);
   if (judged.rows.empty() && task.rule.target)

@@ -72,7 +72,7 @@ void add_roller_options(CLI::App &command, RollerArguments &arguments, const cha
       ->group(group);
 }
 
-std::optional<GivenRoller> judged(const RollerArguments &arguments) {
+std::optional<GivenRoller> judged(const RollerArguments &arguments, bool warn) {
   if (!arguments.file) {
     if (arguments.setting) throw UsageError(refusal("--setting", *arguments.setting, "only with --roller"));
     return std::nullopt;
@@ -81,6 +81,9 @@ std::optional<GivenRoller> judged(const RollerArguments &arguments) {
     const std::string file = path_option("--roller", *arguments.file).string();
     GivenRoller given = {file, read_roller(file), {}};
     given.setting = setting_of(given.machine, arguments.setting.value_or(""), file);
+    if (warn)
+      for (const std::string &warning : given.machine.warnings)
+        fmt::print(stderr, "WARNING: {}\n", warning);
     return given;
   } catch (const std::invalid_argument &error) {
     const std::string said = error.what();

@@ -37,8 +37,9 @@ struct GivenRoller {
 /// Adds --roller and --setting; `arguments` must outlive the app. \param group of the help
 void add_roller_options(CLI::App &command, RollerArguments &arguments, const char *group);
 
-/// The roller, if one is given; UsageError if its file cannot be read or has no such setting.
-std::optional<GivenRoller> judged(const RollerArguments &arguments);
+/// The roller, if one is given; UsageError if its file cannot be read or has no such setting. \param warn
+/// whether numbers that rollers do not have are told on standard error
+std::optional<GivenRoller> judged(const RollerArguments &arguments, bool warn = true);
 
 /// The file that is read, if there is one, for keep_apart().
 std::vector<GivenPath> files_of(const RollerArguments &arguments);

@@ -280,8 +280,11 @@ private:
       if (std::find(ways.begin(), ways.end(), words[2]) == ways.end())
         refuse(fmt::format("NAME UNIT WAY FILE COLUMN, WAY one of {}", fmt::join(ways, ", ")));
       const std::vector<std::string> column(words.begin() + own - 1, words.end()); // may have a unit
-      quantity =
-          column_quantity(words[0], words[1], words[2], words[3], fmt::format("{}", fmt::join(column, " ")));
+      const std::string name = fmt::format("{}", fmt::join(column, " ")), known = column_unit(words[3], name);
+      const bool per_metre = (known == "N" || known == "J") && words[1] == known + "/m"; // beds in the plane
+      if (!known.empty() && words[1] != known && !per_metre)
+        refuse(fmt::format("NAME UNIT WAY FILE COLUMN, UNIT {}, that of the column", known));
+      quantity = column_quantity(words[0], words[1], words[2], words[3], name);
     } else {
       refuse("the name of a bed's quantity, or NAME UNIT WAY FILE COLUMN");
     }
@@ -433,7 +436,8 @@ private:
     layer.packing.sieve = sizes;
     if (sizes) layer.packing.sieve_name = words[1];
     if (has_density)
-      layer.pouring = Pouring{density, 0.0, 0.0, 0.0, 0.0, 0.0}; // check_bed() looks up how to pour it
+      layer.pouring =
+          Pouring{density, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; // check_bed() looks up how to pour it
     bed().layers.push_back(layer);
   }
   void take_spot() {
@@ -530,11 +534,11 @@ private:
       if (layer.pouring.has_value() != scene.bed->layers.front().pouring.has_value())
         refuse("relative_density of all layers, or of none");
       if (layer.pouring) {
-        const std::optional<std::string> packings = packings_file(layer.packing);
-        if (!packings)
+        const MeasuredPackings packings = read_packings(input_file(packings_file(layer.packing)));
+        if (!other_balls(packings, layer.packing).empty())
           refuse("relative_density of layers without sizes of their own, whose radii have the ratio of case "
                  "gravel");
-        layer.pouring = read_packings(input_file(*packings)).pouring(layer.pouring->relative_density);
+        layer.pouring = packings.pouring(layer.pouring->relative_density);
       }
       layer.packing.balls = balls_of(layer);
     }

@@ -287,9 +287,44 @@ const Quantity *bed_quantity(const std::string &name) {
   return found == all.end() ? nullptr : &*found;
 }
 
+std::string column_unit(const std::string &file, const std::string &column) {
+  if (const std::size_t open = column.rfind('['); open != std::string::npos && column.back() == ']')
+    return column.substr(open + 1, column.size() - open - 2);
+  using Units = std::vector<std::pair<std::string, const char *>>;
+  for (const auto &[end, unit] :
+       Units{{"_mm", "mm"}, {"_m", "m"}, {"_kPa", "kPa"}, {"_MPa", "MPa"}, {"_s", "s"}})
+    if (column.size() > end.size() && column.compare(column.size() - end.size(), end.size(), end) == 0)
+      return unit;
+  const std::string name = std::filesystem::path(file).filename().string();
+  if (name != "chain.csv" && name != "bed.csv" && name != "cycles.csv") return {};
+  for (const auto &[begin, unit] : Units{{"time", "s"},
+                                         {"x_", "m"},
+                                         {"v_", "m/s"},
+                                         {"a_", "m/s2"},
+                                         {"a1_", "m/s2"},
+                                         {"a2_", "m/s2"},
+                                         {"ah_", "m/s2"},
+                                         {"theta_", "rad"},
+                                         {"omega_", "rad/s"},
+                                         {"F_", "N"},
+                                         {"traction", "N"},
+                                         {"torque", "N m"},
+                                         {"settlement", "m"},
+                                         {"work_", "J"},
+                                         {"dissipated", "J"},
+                                         {"stored_", "J"},
+                                         {"elastic", "J"},
+                                         {"kinetic", "J"},
+                                         {"potential", "J"}})
+    if (column.rfind(begin, 0) == 0) return unit;
+  return {};
+}
+
 Quantity column_quantity(const std::string &name, const std::string &unit, const std::string &way,
                          const std::string &file, const std::string &column) {
-  return {name, name, unit, unit, 1.0, relative_tolerance, false, of_column(file, column, way)};
+  const std::string label =
+      unit == "-" || !column_unit(file, column).empty() ? name : name + ", unit as given";
+  return {name, label, unit, unit, 1.0, relative_tolerance, false, of_column(file, column, way)};
 }
 
 std::vector<double> measured(const std::vector<Quantity> &quantities, const std::filesystem::path &folder,

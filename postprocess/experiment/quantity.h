@@ -33,6 +33,9 @@ const Quantity *bed_quantity(const std::string &name);
 
 /// The ways to make one number of a column: last, gain (last less first), mean, largest, smallest, per_row.
 std::vector<const char *> column_ways();
+/// The unit of a column, which stands at the end of its name, "settlement [m]" or "stress_kPa", or is known
+/// of the tables of fix roller/history; empty: not known.
+std::string column_unit(const std::string &file, const std::string &column);
 /// A quantity of any deck: one number made of a column of a CSV file that the deck writes. Empty cells are
 /// left out. `mean`, and `per_row`, the mean change from one row to the next, use the second half of the
 /// rows. The file may also be one of the tables of `drumlin passes`; it is made from the run if the deck has

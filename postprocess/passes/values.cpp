@@ -58,6 +58,7 @@ public:
 
   PassesResult result() {
     result_.folder = drive_.folder;
+    result_.parameters = drive_.record.parameters;
     result_.measured = drive_.measured;
     result_.spots = drive_.spots;
     result_.speed = drive_.speed;

@@ -8,6 +8,7 @@
 #include "support/statistics.h"
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,6 +71,7 @@ struct PassDumps {
 /// What a run has left.
 struct PassesResult {
   std::filesystem::path folder;
+  std::map<std::string, std::string> parameters; ///< of parameters.csv
   WayPart measured;
   std::vector<WayPart> spots;          ///< soft or stiff parts of the lowest layer
   double speed = 0.0, frequency = 0.0; ///< m/s, Hz

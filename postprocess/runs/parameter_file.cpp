@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <set>
 
 namespace drumlin::post {
 
@@ -29,6 +31,38 @@ std::string parameters_text(const std::vector<std::pair<std::string, std::string
   for (const auto &[name, value] : parameters)
     text += fmt::format("{},{}\n", csv_cell(name), csv_cell(value));
   return text;
+}
+
+namespace {
+/// What tells one bed from another; runs of earlier versions do not note the seed.
+const std::set<std::string> of_bed = {"seed", "balls", "d50", "C_u", "layer_tops", "drum_depth"};
+const std::set<std::string> of_run = {
+    "timestep",       "dt",    "side_height", "ranks",        "command",
+    "plugin",         "out",   "start",       "bed",          "ended",
+    "roller",         "guard", "time_limit",  "allow_change", "dumps_per_pass",
+    "dumps_per_cycle"};
+} // namespace
+
+bool varies_with_seed(const std::string &name) { return of_bed.count(name) + of_run.count(name) > 0; }
+
+std::string no_samples(const std::map<std::string, std::string> &run,
+                       const std::map<std::string, std::string> &other) {
+  const auto value = [](const std::map<std::string, std::string> &of, const std::string &name) {
+    const auto found = of.find(name);
+    return found == of.end() ? "unknown" : found->second;
+  };
+  std::map<std::string, std::string> names = run;
+  names.insert(other.begin(), other.end());
+  for (const auto &[name, text] : names)
+    if (!varies_with_seed(name) && value(run, name) != value(other, name))
+      return fmt::format("{} is '{}' and '{}'", name, value(run, name), value(other, name));
+  const bool same = std::all_of(of_bed.begin(), of_bed.end(), [&](const std::string &name) {
+    return value(run, name) == value(other, name);
+  });
+  const std::string seed = value(run, "seed");
+  return same || (seed != "unknown" && seed == value(other, "seed"))
+             ? fmt::format("both are of one bed, seed {}", seed)
+             : "";
 }
 
 std::string roller_words(const std::map<std::string, std::string> &parameters) {

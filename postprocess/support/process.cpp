@@ -104,8 +104,9 @@ double seconds(const timeval &time) {
 int become(const Program &program, char **argv, char **envp, pid_t parent) {
   if (program.own_group) ::setpgid(0, 0);
   // It ends with this process, even if that is killed: nobody would read its results, and a later call might
-  // write the same files.
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  // write the same files. SIGKILL, for nobody would be left to send it after a SIGTERM that has no effect.
+  // Files are whole: engines rename them when they are written. Ranks end with their mpirun.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(EXIT_FAILURE);
   ::signal(SIGPIPE, SIG_DFL); // which this process may ignore
   const int input = ::open("/dev/null", O_RDONLY);

@@ -10,7 +10,8 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr unsigned patience = 3; ///< s
+constexpr unsigned patience = 3;   ///< s
+constexpr unsigned unwinding = 10; ///< s, more than run_program() gives a program that is to stop
 volatile std::sig_atomic_t received = 0;
 
 void take_default(int number) {
@@ -42,7 +43,9 @@ void stop_where_told() {
 }
 
 void end_if_told() {
-  if (received != 0) throw StoppedBySignal{received};
+  if (received == 0) return;
+  ::alarm(unwinding);
+  throw StoppedBySignal{received};
 }
 
 void end_by(const StoppedBySignal &signal) {

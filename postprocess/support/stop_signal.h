@@ -9,8 +9,9 @@ struct StoppedBySignal {
 };
 
 /// From now on these signals, unless they are ignored, end the process at the next call of end_if_told(), so
-/// that destructors remove temporary folders. After three seconds without such a call, or at a second signal,
-/// they end it at once. Nobody can tell which call a signal is meant for: this state is that of the process.
+/// that destructors remove temporary folders, for which they have ten seconds. After three seconds without
+/// such a call, or at a second signal, they end it at once. Nobody can tell which call a signal is meant for:
+/// this state is that of the process.
 void stop_where_told();
 
 /// Throws StoppedBySignal if such a signal has arrived. Called where work can be left: before a file is

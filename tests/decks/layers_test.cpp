@@ -342,8 +342,8 @@ TEST_P(LayeredBed, IsPouredForItsRelativeDensity) {
   if (dimension == "3") return;
   const Scratch folder;
   write_text(folder / "density.csv",
-             "share,friction,rolling,void_ratio,solid_fraction,relative_density,compaction,coordination\n1,0."
-             "8,0.45,0.29,0.775,0,0.92,3\n0,0,0,0.19,0.84,1,1,4\n");
+             "share,friction,rolling,void_ratio,solid_fraction,relative_density,compaction,coordination,"
+             "dimension,spread\n1,0.8,0.45,0.29,0.775,0,0.92,3,2,0.2\n0,0,0,0.19,0.84,1,1,4,2,0.2\n");
   well(run_program({DRUMLIN_TOOLS, "bed", "--width", "1", "--layer", "0.3", "--layer", "0.3", "--packings",
                     "density.csv", "--relative-density", "0", "--relative-density", "1", "--out", "balls"},
                    {}, folder.path()));
@@ -351,9 +351,13 @@ TEST_P(LayeredBed, IsPouredForItsRelativeDensity) {
   const std::filesystem::path deck = bed_deck(engine == "lammps" ? "in.settle.lammps" : "in.settle");
   EXPECT_TRUE(printed(run_deck(deck, with(variables, {{"pour_friction", "0.3"}}), folder.path()),
                       "variable pour_friction is '0.3'; allowed: 0.8,0, with which 'balls' was made"));
+  EXPECT_TRUE(printed(run_deck(deck, with(variables, {{"friction", "0.5"}}), folder.path()),
+                      "variable friction is '0.5'; allowed: 0.8,0.8, of the soil whose loosest and densest "
+                      "packing balls notes"));
   well(run_deck(deck, variables, folder.path()));
   const std::string text = read_text(folder / "soil.data");
-  for (const char *note : {"relative_density 0,1\n", "e_loosest 0.29,0.29\n", "e_densest 0.19,0.19\n",
+  for (const char *note : {"seed 1\n", "packings_friction 0.8,0.8\n", "poured 1e8/0.3/0.8,0/0.45,0/0\n",
+                           "relative_density 0,1\n", "e_loosest 0.29,0.29\n", "e_densest 0.19,0.19\n",
                            "pour_friction 0.8,0\n", "pour_rolling 0.45,0\n"})
     EXPECT_TRUE(contains(text, std::string("# drumlin note ") + note)) << note;
   // Both layers have the thickness that was asked for when their void ratios differ as their areas do.

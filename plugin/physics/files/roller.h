@@ -61,6 +61,7 @@ struct Roller {
   };
   Sides springs, dashpots;
   std::vector<RollerSetting> settings; ///< at least one, in the order of the file
+  std::vector<std::string> warnings;   ///< of numbers outside of what rollers have: a wrong unit, perhaps
 };
 
 /// A value that follows from a roller file: its name in parameters.csv, and its unit.
@@ -95,6 +96,9 @@ using Units = std::vector<Unit>;
 struct Quantity {
   const char *name;
   Units units;
+  /// What rollers have, in SI units, widely: from walk-behind rollers to the heaviest ones that are towed. A
+  /// value outside, other than 0, is warned of. Negative values count by their size.
+  double usual_from, usual_to;
   double largest; ///< in SI units; the value is positive, or zero as well where the lowest is 0
   bool zero_allowed;
   bool of_setting;
@@ -110,36 +114,36 @@ inline std::vector<Quantity> quantities() {
   const Units percent = {{"%", 0.01}};
   const Units stiffness = {{"N/m", 1.0}, {"kN/m", 1e3}, {"MN/m", 1e6}};
   const Units damping = {{"N s/m", 1.0}, {"kN s/m", 1e3}};
-  return {{"operating_mass", mass, 1e6, false, false},
-          {"drum_load", load, 1e6, false, false},
-          {"linear_load", linear, 1e6, false, false},
-          {"drum_mass", mass, 1e6, false, false},
-          {"frame_mass", mass, 1e6, false, false},
-          {"width", length, 100.0, false, false},
-          {"diameter", length, 100.0, false, false},
-          {"bond_stiffness", stiffness, 1e12, false, false},
-          {"bond_damping", damping, 1e9, true, false},
-          {"bond_stiffness_left", stiffness, 1e12, false, false},
-          {"bond_damping_left", damping, 1e9, true, false},
-          {"bond_left", length, 100.0, true, false},
-          {"bond_right", length, 100.0, true, false},
-          {"damper_left", length, 100.0, true, false},
-          {"damper_right", length, 100.0, true, false},
-          {"drum_inertia", {{"kg m2", 1.0}}, 1e9, false, false},
-          {"frame_inertia", {{"kg m2", 1.0}}, 1e9, false, false},
-          {"exciter_place", length, 100.0, true, false, true},
-          {"exciter_place_tolerance", length, 100.0, true, false},
-          {"sensor_place", length, 100.0, true, false, true},
-          {"frame_frequency", frequency, 1e3, false, false},
-          {"frame_damping", {{"-", 1.0}, {"%", 0.01}}, 100.0, true, false},
-          {"drum_mass_tolerance", percent, 0.5, true, false},
-          {"frame_mass_tolerance", percent, 0.5, true, false},
-          {"eccentric_moment_tolerance", percent, 0.5, true, false},
-          {"bond_tolerance", percent, 1.0, true, false},
-          {"frequency", frequency, 1e4, false, true},
-          {"eccentric_moment", {{"kg m", 1.0}, {"kgm", 1.0}, {"kg mm", 1e-3}}, 1e6, false, true},
-          {"force", {{"N", 1.0}, {"kN", 1e3}}, 1e9, false, true},
-          {"amplitude", {{"mm", 1e-3}, {"m", 1.0}}, 1.0, false, true}};
+  return {{"operating_mass", mass, 200, 1e5, 1e6, false, false},
+          {"drum_load", load, 100, 5e4, 1e6, false, false},
+          {"linear_load", linear, 200, 2e4, 1e6, false, false},
+          {"drum_mass", mass, 50, 3e4, 1e6, false, false},
+          {"frame_mass", mass, 20, 5e4, 1e6, false, false},
+          {"width", length, 0.2, 4, 100.0, false, false},
+          {"diameter", length, 0.2, 3, 100.0, false, false},
+          {"bond_stiffness", stiffness, 1e4, 1e9, 1e12, false, false},
+          {"bond_damping", damping, 100, 1e7, 1e9, true, false},
+          {"bond_stiffness_left", stiffness, 1e3, 1e9, 1e12, false, false},
+          {"bond_damping_left", damping, 10, 1e7, 1e9, true, false},
+          {"bond_left", length, 0.01, 2, 100.0, true, false},
+          {"bond_right", length, 0.01, 2, 100.0, true, false},
+          {"damper_left", length, 0.01, 2, 100.0, true, false},
+          {"damper_right", length, 0.01, 2, 100.0, true, false},
+          {"drum_inertia", {{"kg m2", 1.0}}, 1, 1e5, 1e9, false, false},
+          {"frame_inertia", {{"kg m2", 1.0}}, 1, 1e5, 1e9, false, false},
+          {"exciter_place", length, 0, 2, 100.0, true, false, true},
+          {"exciter_place_tolerance", length, 0, 0.5, 100.0, true, false},
+          {"sensor_place", length, 0, 4, 100.0, true, false, true},
+          {"frame_frequency", frequency, 0.5, 30, 1e3, false, false},
+          {"frame_damping", {{"-", 1.0}, {"%", 0.01}}, 0.01, 2, 100.0, true, false},
+          {"drum_mass_tolerance", percent, 0, 0.5, 0.5, true, false},
+          {"frame_mass_tolerance", percent, 0, 0.5, 0.5, true, false},
+          {"eccentric_moment_tolerance", percent, 0, 0.5, 0.5, true, false},
+          {"bond_tolerance", percent, 0, 1, 1.0, true, false},
+          {"frequency", frequency, 5, 150, 1e4, false, true},
+          {"eccentric_moment", {{"kg m", 1.0}, {"kgm", 1.0}, {"kg mm", 1e-3}}, 0.01, 100, 1e6, false, true},
+          {"force", {{"N", 1.0}, {"kN", 1e3}}, 1e3, 2e6, 1e9, false, true},
+          {"amplitude", {{"mm", 1e-3}, {"m", 1.0}}, 1e-4, 1e-2, 1.0, false, true}};
 }
 
 /// "a, b or c" of the names of `list`.
@@ -194,6 +198,7 @@ struct Lines {
   std::string file;
   Values machine;
   std::vector<std::pair<std::string, Values>> settings;
+  std::vector<std::string> warnings;
 
   [[noreturn]] void fail(const std::string &what, const std::string &value,
                          const std::string &allowed) const {
@@ -250,6 +255,11 @@ inline void Lines::add(const std::string &text, const std::string &where) {
     fail(name + " in " + where, both,
          (known->zero_allowed ? "0 or a positive number" : "a positive number") + std::string(" up to ") +
              number_text(known->largest / unit_of->factor) + " " + unit);
+  if (const double size = std::fabs(in_si);
+      size != 0.0 && !(size >= known->usual_from && size <= known->usual_to))
+    warnings.push_back(name + " in " + where + " of '" + file + "' is '" + both + "'; rollers have " +
+                       number_text(known->usual_from / unit_of->factor) + " to " +
+                       number_text(known->usual_to / unit_of->factor) + (unit.empty() ? "" : " ") + unit);
   if (known->of_setting && settings.empty()) settings.push_back({"", {}});
   if (!known->of_setting && !settings.empty() && !settings.front().first.empty())
     fail(name + " in " + where, both, "values of the machine before its settings");
@@ -294,6 +304,7 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
   Lines lines;
   lines.read(text, file);
   Roller roller;
+  roller.warnings = lines.warnings;
   roller.width = lines.of("width");
   roller.diameter = lines.of("diameter");
   roller.operating_mass = lines.of("operating_mass");

@@ -13,11 +13,10 @@ namespace drumlin::post {
 namespace {
 
 /// The parameters in which tests of one soil agree, as one text.
-std::string soil_text(const Run &run, std::vector<std::string> varied) {
-  varied.insert(varied.end(), {"seed", "balls", "ranks", "command", "plugin", "timestep", "dt", "out"});
+std::string soil_text(const Run &run, const std::vector<std::string> &varied) {
   std::string text;
   for (const auto &[name, value] : run.parameters)
-    if (std::find(varied.begin(), varied.end(), name) == varied.end())
+    if (!varies_with_seed(name) && std::find(varied.begin(), varied.end(), name) == varied.end())
       text.append(name).append(" ").append(value).append("\n");
   return text;
 }

@@ -132,6 +132,21 @@ TEST(PreloadedStub, LeavesErrorsOneLine) {
             3U); // the first two lines name engine and plugin
 }
 
+// A signal within the first malloc() behind the engine's handlers, at its start: they must not allocate.
+TEST(PreloadedStub, EndsAnEngineThatASignalMeetsWhileItAllocates) {
+  const Scratch scratch;
+  write_text(scratch / "in.stock", "print \"not reached\"\n");
+  const auto run = [&](const std::string &libraries) {
+    std::vector<std::string> environment = mpi_environment(scratch.path());
+    environment.push_back("LD_PRELOAD=" + libraries);
+    return run_program({"liggghts", "-in", "in.stock"}, environment, scratch.path());
+  };
+  EXPECT_EQ(run(SIGNAL_IN_MALLOC).status, 99); // without the plugin the engine would hang
+  const Outcome outcome = run(plugin_library() + ":" SIGNAL_IN_MALLOC);
+  EXPECT_TRUE(fails_with(outcome, ": stopped by a signal before the end of the deck"));
+  EXPECT_FALSE(outcome.says("not reached"));
+}
+
 TEST(PreloadedStub, WithoutItTheEngineDoesNotKnowTheCommands) {
   const Scratch scratch;
   write_text(scratch / "in.check", "drumlin/check k 1 positive\n");

@@ -192,6 +192,32 @@ TEST_F(RollerFile, RefusesWhatCannotBeRightInOneLine) {
   EXPECT_THROW(read(""), std::invalid_argument);
 }
 
+// Numbers that rollers do not have are read with a warning that has the unit as it was read.
+TEST_F(RollerFile, WarnsOfNumbersThatRollersDoNotHave) {
+  const std::string good = "drum_mass 4 t\nframe_mass 3 t\nfrequency 30 Hz\neccentric_moment 7 kg m\n";
+  EXPECT_TRUE(read(good + "frame_damping 0 %\n").warnings.empty());
+  for (const auto &[line, warning] :
+       {std::pair{"diameter 1504 cm", "diameter in line 5 of 'FILE' is '1504 cm'; rollers have 20 to 300 cm"},
+        {"frame_damping 15 -", "frame_damping in line 5 of 'FILE' is '15 -'; rollers have 0.01 to 2 -"},
+        {"frame_damping 1500 %", "frame_damping in line 5 of 'FILE' is '1500 %'; rollers have 1 to 200 %"},
+        {"bond_stiffness 3.1 kN/m",
+         "bond_stiffness in line 5 of 'FILE' is '3.1 kN/m'; rollers have 10 to 1e+06 kN/m"},
+        {"exciter_place -3 m", "exciter_place in line 5 of 'FILE' is '-3 m'; rollers have 0 to 2 m"}}) {
+    std::vector<std::string> found = read(good + line).warnings;
+    ASSERT_EQ(found.size(), 1U) << line;
+    EXPECT_EQ(found[0].replace(found[0].find(file_), file_.size(), "FILE"), warning);
+  }
+  const std::vector<std::string> fast =
+      read("drum_mass 4 t\nframe_mass 3 t\nfrequency 1800 Hz\neccentric_moment 7 kg m\n").warnings;
+  ASSERT_EQ(fast.size(), 1U);
+  EXPECT_NE(fast[0].find("is '1800 Hz'; rollers have 5 to 150 Hz"), std::string::npos) << fast[0];
+  for (const std::filesystem::directory_entry &machine :
+       std::filesystem::directory_iterator(DRUMLIN_SOURCE_DIR "/inputs/rollers"))
+    if (machine.path().extension() != ".md") {
+      EXPECT_TRUE(read_roller(machine.path().string()).warnings.empty()) << machine.path();
+    }
+}
+
 // Bytes at random, and lines of a good file in which bytes are changed: each is read or refused.
 TEST_F(RollerFile, AnyBytesAreReadOrRefused) {
   const std::string good = "drum_mass 4 t\nframe_mass 3 t\nsetting a\nfrequency 30 Hz\nforce 250 kN\n";

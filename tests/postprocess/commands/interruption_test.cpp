@@ -1,5 +1,6 @@
 // Commands that are killed at random times and called again give what they give without an interruption.
-// Three kills of each; the environment variable DRUMLIN_KILLS asks for another number.
+// Three kills of each; the environment variable DRUMLIN_KILLS asks for another number, and DRUMLIN_SEED for
+// the times of an earlier run, which has printed it.
 #include "engine/places.h"
 #include "support/files.h"
 #include "support/process.h"
@@ -86,7 +87,10 @@ void kill_and_resume(const std::vector<std::string> &words, const Compare &compa
   const auto begin = std::chrono::steady_clock::now();
   well(call("whole", 600.0, SIGKILL, more.front()));
   const double length = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  std::mt19937 random(std::random_device{}());
+  const char *wanted = std::getenv("DRUMLIN_SEED");
+  const unsigned long seed = wanted == nullptr ? std::random_device{}() : std::stoul(wanted);
+  fmt::print("DRUMLIN_SEED={}\n", seed);
+  std::mt19937 random(static_cast<std::mt19937::result_type>(seed));
   int folders = 0;
   for (const std::vector<std::string> &further : more)
     for (int killed = 0; killed < kills() && !testing::Test::HasFailure();) {

@@ -147,7 +147,8 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
        "--packings is 'none.csv'; allowed: the density.csv of a run of inputs/soil/in.density"},
       {"bed --layer 0.2 --relative-density 1 --relative-density 0",
        "--relative-density is '0'; allowed: once, or once for each of the 1 layers"},
-      {"bed --layer 0.2:WMM:20 --relative-density 1", "--relative-density is '1'; allowed: with --packings"},
+      {"bed --layer 0.2:WMM:20 --relative-density 1",
+       "--relative-density is '1'; allowed: of layers without a sieve curve"},
       {"bed --layer 0.2 --relative-density 1 --radius-max 0.03",
        "--relative-density is '1'; allowed: with --packings"},
       {"bed --cut 8", "--cut is '8'; allowed: only with --sieve"},
@@ -452,8 +453,9 @@ TEST_F(ToolOptions, AdviceForARollerNamesItsFile) {
 // thickness at its void ratio. Between two packings friction follows the void ratio linearly.
 TEST_F(ToolOptions, LayersArePouredForTheirRelativeDensity) {
   std::ofstream(folder_ / "density.csv")
-      << "share,friction,rolling,void_ratio,solid_fraction,relative_density,compaction,coordination\n1,0.8,0."
-         "4,0.3,0.77,0,0.92,3\n0,0,0,0.2,0.83,1,1,4\n0.5,0.4,0.2,0.28,0.78,0.2,0.94,3\n";
+      << "share,friction,rolling,void_ratio,solid_fraction,relative_density,compaction,coordination,"
+         "dimension,spread\n1,0.8,0.4,0.3,0.77,0,0.92,3,2,0.2\n0,0,0,0.2,0.83,1,1,4,2,0.2\n"
+         "0.5,0.4,0.2,0.28,0.78,0.2,0.94,3,2,0.2\n";
   const post::Outcome outcome =
       well(run({"bed", "--width", "4", "--layer", "0.3", "--layer", "0.3", "--packings", "density.csv",
                 "--relative-density", "0.1", "--relative-density", "1", "--out", "balls.data"}));
@@ -461,8 +463,9 @@ TEST_F(ToolOptions, LayersArePouredForTheirRelativeDensity) {
                       "at a relative density of 0.1: void ratio 0.290 (0.300 loosest, 0.200 densest), "
                       "poured with friction 0.6 and rolling friction 0.3"));
   const std::string text = post::read_text(folder_ / "balls.data");
-  for (const char *note : {"relative_density 0.1,1\n", "e_loosest 0.3,0.3\n", "e_densest 0.2,0.2\n",
-                           "pour_friction 0.6,0\n", "pour_rolling 0.3,0\n"})
+  for (const char *note :
+       {"relative_density 0.1,1\n", "e_loosest 0.3,0.3\n", "e_densest 0.2,0.2\n", "pour_friction 0.6,0\n",
+        "pour_rolling 0.3,0\n", "packings_friction 0.8,0.8\n", "packings_rolling 0.4,0.4\n", "seed 1\n"})
     EXPECT_TRUE(contains(text, std::string("# drumlin note ") + note)) << note;
   double area[] = {0.0, 0.0};
   std::istringstream rows(text.substr(text.find("Atoms\n") + 6));
@@ -477,6 +480,36 @@ TEST_F(ToolOptions, LayersArePouredForTheirRelativeDensity) {
                  "density.csv"})
                 .status,
             2);
+}
+
+// A table of packings says of which balls it is.
+TEST_F(ToolOptions, PackingsOfOtherBallsAreRefused) {
+  const std::string columns =
+      "share,friction,rolling,void_ratio,solid_fraction,relative_density,compaction,coordination";
+  const auto refused = [&](const std::string &mix, const std::vector<std::string> &more,
+                           const std::string &says) {
+    post::write_files({{folder_ / "density.csv", columns + (mix.empty() ? "" : ",dimension,spread") +
+                                                     "\n1,0.8,0.4,0.3,0.77,0,0.9,3" + mix +
+                                                     "\n0,0,0,0.2,0.83,1,1,4" + mix + "\n"}});
+    std::vector<std::string> words = {"bed",        "--layer",     "0.3",
+                                      "--packings", "density.csv", "--relative-density",
+                                      "1",          "--out",       "none.data"};
+    words.insert(words.end(), more.begin(), more.end());
+    const post::Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 2);
+    expect_one_error(outcome.output, "drumlin bed: ");
+    EXPECT_TRUE(printed(outcome, says));
+    EXPECT_FALSE(fs::exists(folder_ / "none.data"));
+  };
+  const std::string allowed = "--packings is 'density.csv'; allowed: packings of ";
+  refused("", {},
+          "density.csv, column 'dimension': is missing; allowed: density.csv of this version's in.density");
+  refused(",3,0.2", {},
+          allowed + "discs with radii from r to 1.5 r, grading uniform; it has those of spheres");
+  refused(",2,0.2", {"--depth", "0.2"}, allowed + "spheres with radii from r to 1.5 r");
+  refused(",2,0", {}, "it has those of discs with radii from r to 1 r");
+  refused(",2,0.2", {"--radius-max", "0.032"}, allowed + "discs with radii from r to 2 r");
+  refused(",2,0.2", {"--grading", "mass"}, allowed + "discs with radii from r to 1.5 r, grading mass");
 }
 
 TEST_F(ToolOptions, SpotsAreOfTheLowestLayer) {

@@ -80,7 +80,8 @@ TEST(FilesOfABed, AreNamedForAllThatMadeThem) {
              other.bed->layers = {{other.bed->packing, 0.4}};
            },
            [](post::Scene &other) {
-             other.bed->layers = {{other.bed->packing, 0.4, post::Pouring{0.5, 0.1, 0.1, 0.2, 0.3, 0.1}}};
+             other.bed->layers = {
+                 {other.bed->packing, 0.4, post::Pouring{0.5, 0.1, 0.1, 0.2, 0.3, 0.1, 0.8, 0.4}}};
            },
            [](post::Scene &other) { other.bed->packing.radius_max += 1e-3; },
            [](post::Scene &other) { other.bed->ratio = "2e-2"; },

@@ -274,6 +274,25 @@ TEST_F(PlanTest, RefusesEachBadLine) {
   expect_refused(
       "title T\nquantity gap m middle f.csv x\n",
       ", line 2: quantity is 'gap m middle f.csv x'; allowed: NAME UNIT WAY FILE COLUMN, WAY one of last");
+  for (const auto &[column, unit] : {std::pair{"passes.csv settlement [m]", "m"},
+                                     {"cycles.csv settlement", "m"},
+                                     {"plate.csv stress_kPa", "kPa"},
+                                     {"chain.csv F_contact", "N"},
+                                     {"out/bed.csv a_drum", "m/s2"}}) {
+    expect_refused(fmt::format("title T\nquantity gap mm last {}\n", column),
+                   fmt::format(", line 2: quantity is 'gap mm last {}'; allowed: NAME UNIT WAY FILE COLUMN, "
+                               "UNIT {}, that of the column",
+                               column, unit));
+    EXPECT_EQ(read(fmt::format("title T\nquantity gap {} last {}\ndeck in.own\nscene a", unit, column))
+                  .quantities.front()
+                  .label,
+              "gap");
+  }
+  EXPECT_EQ(read("title T\nquantity work J/m last cycles.csv work_excitation\nquantity gap mm last my.csv "
+                 "gap\ndeck in.own\nscene a")
+                .quantities.back()
+                .label,
+            "gap, unit as given");
   expect_refused("title T\nquantity a/b m last f.csv x\n",
                  ", line 2: quantity is 'a/b m last f.csv x'; allowed: NAME");
   for (const char *name_and_unit : {"nan m", "gap nan"})

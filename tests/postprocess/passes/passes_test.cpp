@@ -90,6 +90,7 @@ struct DriveRun {
   };
   double cmv_of_pass = 30.0;
   const char *ended = "yes";
+  int seed = 1;
 };
 
 class Passes : public ::testing::Test {
@@ -152,6 +153,7 @@ protected:
                                    {"m3", number_text(m3)},
                                    {"timestep", number_text(1.0 / (frequency * steps_per_cycle))},
                                    {"layers", "2"},
+                                   {"seed", std::to_string(run.seed)},
                                    {"layer_tops", "0.4,0.6"},
                                    {"e_loosest", "0.9,0.9"},
                                    {"e_densest", "0.2,0.2"},
@@ -433,7 +435,9 @@ TEST_F(Passes, JudgesTheCellsByRulesOfAcceptance) {
                        {"2 of 3 acceptance criteria hold", "the last pass changes the mean by less than 5 %",
                         "at least 80 % of the cells have CMV of 70 or more"}));
   // Another meter, two runs together, no target.
-  write_run("other");
+  DriveRun other;
+  other.seed = 2;
+  write_run("other", other);
   ASSERT_TRUE(passes({"run", "other", "--meter", "peak_force"}).ok());
   const Table both = read_table(folder_ / "results/passes/acceptance.csv");
   EXPECT_EQ(both.text("cells [-]").back(), "10");
@@ -478,6 +482,7 @@ TEST_F(Passes, AveragesOverSeeds) {
     run.cmv_of_pass = 20.0 + seed;
     run.bed = [seed](int pass) { return Bed{0.05 - 1e-3 * seed * pass, 0, 0.0}; };
     run.passes = seed == 3 ? 3 : 2;
+    run.seed = seed;
     write_run(fmt::format("run{}", seed), run);
   }
   const Outcome outcome = passes({"run1", "run2", "run3"});
@@ -544,6 +549,33 @@ TEST_F(Passes, KeepsTheFinishedPassesOfARunThatWasKilled) {
   const Outcome outcome = passes({"run"});
   ASSERT_TRUE(outcome.ok()) << outcome.output;
   EXPECT_TRUE(contains(outcome.output, {"2 passes compact", "Pass 3 is left out", "is cut short"}));
+}
+
+// Runs are pooled if they differ in the seed alone.
+TEST_F(Passes, OfOneSceneOnBedsOfTheirOwnArePooled) {
+  DriveRun second;
+  second.seed = 2;
+  write_run("run");
+  const fs::path parameters = write_run("other", second) / "parameters.csv";
+  const std::string good = read_text(parameters);
+  const auto differs = [&](const std::string &row, const std::string &says) {
+    write_files({{parameters, good + row}});
+    refused({"run", "other"}, "FOLDER is 'other'; allowed: runs that differ in the seed of their beds alone: "
+                              "here and in run " +
+                                  says);
+  };
+  for (const char *name : {"k", "friction", "transition", "poured", "engine"})
+    differs(fmt::format("{},other\n", name), fmt::format("{} is 'other' and 'unknown'", name));
+  write_files({{parameters, std::regex_replace(good, std::regex("m2,2000"), "m2,2001")}});
+  refused({"run", "other"}, "m2 is '2001' and '2000'");
+  write_files({{parameters, std::regex_replace(good, std::regex("seed,2"), "seed,1")}});
+  refused({"run", "other"}, "both are of one bed, seed 1");
+  // A run of an earlier version does not note its seed, but what follows from it.
+  const std::string earlier = std::regex_replace(good, std::regex("seed,2\n"), "");
+  write_files({{parameters, earlier}, {folder_ / "run/parameters.csv", earlier}});
+  refused({"run", "other"}, "both are of one bed, seed unknown");
+  write_files({{parameters, earlier + "d50,0.04\nout,other\nranks,2\n"}});
+  EXPECT_TRUE(passes({"run", "other"}).ok());
 }
 
 TEST_F(Passes, RefusesInOneLine) {

@@ -1,5 +1,6 @@
 // Programs that are run as child processes, and their lines while they run.
 #include "support/process.h"
+#include "support/stop_signal.h"
 
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
@@ -13,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <sys/wait.h>
@@ -67,10 +69,11 @@ TEST(Process, IsStoppedWhenAReaderOfItsLinesFails) {
 }
 
 TEST(Process, EndsWithTheProcessThatStartedIt) {
-  for (const bool own_group : {true, false}) {
+  for (const auto &[own_group, deaf] : {std::pair{true, ""}, {false, ""}, {true, "trap '' TERM; "}}) {
     const Scratch scratch;
     Program program =
-        shell(scratch, "echo $$ >number.unfinished; mv number.unfinished number; exec sleep 50");
+        shell(scratch,
+              std::string(deaf) + "echo $$ >number.unfinished; mv number.unfinished number; exec sleep 50");
     program.own_group = own_group;
     const pid_t parent = ::fork();
     if (parent == 0) {
@@ -93,6 +96,30 @@ TEST(Process, EndsWithTheProcessThatStartedIt) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     EXPECT_FALSE(runs());
   }
+}
+
+// A program that does not stop is killed after 5 s; what the caller has to clear away is cleared then.
+TEST(Process, ThatDoesNotStopIsKilledBeforeASignalEndsItsCaller) {
+  const Scratch scratch;
+  const Program program = shell(scratch, "trap '' TERM; echo >ready; exec sleep 50");
+  const pid_t caller = ::fork();
+  if (caller == 0) {
+    post::stop_where_told();
+    try {
+      run_program(program);
+    } catch (const post::StoppedBySignal &) {
+      fs::create_directory(scratch / "cleared away");
+    }
+    ::_exit(0);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  while (!fs::exists(scratch / "ready") && seconds_since(begin) < 30.0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ::kill(caller, SIGTERM);
+  int status = 0;
+  ::waitpid(caller, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_TRUE(fs::exists(scratch / "cleared away"));
 }
 
 TEST(Process, WithoutItsProgramIsAnError) {
