@@ -58,10 +58,9 @@ std::vector<double> soil_force(const Record &record);
 /// transition A, whose contact may pull, the same of the size of the force.
 /// - Energy: of a chain from the energies of `record.cycles_file`, else by the trapezoidal rule from force
 /// and v_drum.
-/// - Deflection: the drum's lowest position below that at which the contact of that cycle began. In chain.csv
-/// contact
-///   begins at x_drum = 0; else it is the mean of the samples before and after this instant, and a cycle in
-///   which contact does not begin has no value.
+/// - Deflection: the drum's lowest position below that at which the contact of that cycle began. With a known
+///   origin contact begins at x_drum = 0; else it is the mean of the samples before and after this instant,
+///   and a cycle in which contact does not begin has no value.
 MeterRecord meter_cycles(const Record &record);
 
 /// A line of a spectrum.

@@ -62,7 +62,7 @@ struct MeterWindow {
   /// k_B = omega^2 (m_d + m_e r_e cos(phi) / A_z) [N/m], phi the angle by which the displacement lags the
   /// eccentric force, A_z its amplitude, m_d the mass of the drum alone. In continuous contact: the stiffness
   /// of the soil plus what the frame on its bond adds, real part of its force over the displacement. Apparent
-  /// in other modes.
+  /// in other modes. None if it is not above zero, as k_1 and c_1 are none if one of them is below.
   std::optional<double> k_B;
   /// The same with the frame's force: soil force over displacement at the excitation frequency, real part of
   /// -F/x [N/m] and imaginary part over omega [N s/m]. In continuous contact these are exactly the stiffness
