@@ -202,18 +202,20 @@ void FixBetweenRuns::refuse_two_contacts() const {
   for (std::size_t a = 0; a < static_cast<std::size_t>(domain->dimension); ++a)
     reach[a] = domain->periodicity[a] != 0 && sides[a][a] < two_cutoffs ? 1 : 0;
   if (reach == std::array<int, 3>{}) return;
-  const auto is_near = [&](int i, int j, const std::array<int, 3> &image) {
-    Vector d{};
+  // If ball i touches ball j and an image of it, these are less than two sums of radii apart.
+  const auto can_touch_twice = [&](int i, int j, const std::array<int, 3> &image) {
+    Vector d{}, apart{};
     for (std::size_t a = 0; a < 3; ++a)
       d[a] = atom->x[i][a] - atom->x[j][a];
     for (std::size_t side = 0; side < 3; ++side)
-      d = physics::sum(d, image[side], sides[side]);
-    const double radii = atom->radius[i] + atom->radius[j];
+      apart = physics::sum(apart, image[side], sides[side]);
+    const double radii = atom->radius[i] + atom->radius[j], reach_of_list = radii + neighbor->skin;
     // The image of a ball itself may be a neighbour: it has one contact at most with it.
     if (atom->tag[i] == atom->tag[j])
       return image == std::array<int, 3>{} && physics::dot(d, d) < radii * radii;
-    const double cutoff = radii + neighbor->skin;
-    return image != std::array<int, 3>{} && physics::dot(d, d) < cutoff * cutoff;
+    const Vector other = physics::sum(d, 1.0, apart);
+    return image != std::array<int, 3>{} && physics::dot(apart, apart) < 4.0 * radii * radii &&
+           physics::dot(other, other) < reach_of_list * reach_of_list;
   };
   std::array<int, 2> found{};
   const NeighList *list = source->contact_list();
@@ -223,7 +225,7 @@ void FixBetweenRuns::refuse_two_contacts() const {
       for (int x = -reach[0]; x <= reach[0]; ++x)
         for (int y = -reach[1]; y <= reach[1]; ++y)
           for (int z = -reach[2]; z <= reach[2]; ++z)
-            if (is_near(i, j, {x, y, z}))
+            if (can_touch_twice(i, j, {x, y, z}))
               found = std::max(found, {static_cast<int>(std::min(atom->tag[i], atom->tag[j])),
                                        static_cast<int>(std::max(atom->tag[i], atom->tag[j]))});
     }
