@@ -29,6 +29,8 @@ struct ContactStep {
   const ContactObservers &observers; ///< receive each contact whose surfaces touch
   double dt;                         ///< s
   bool moves;                        ///< false in the set-up of a run: springs stay as they are
+  /// Whether the velocities are those of the middle of a step, as also in the set-up of a run that continues.
+  bool slips_in_middle() const { return moves || (stepping != nullptr && stepping->any_continues()); }
 };
 
 /// A wall at a ball.
@@ -59,7 +61,7 @@ public:
   ContactForces(const LAMMPS_NS::Atom &atom, const ContactStep<Parameters> &step)
       : atom_(atom), table_(step.table), places_(step.places), cap_(step.cap), resisted_(step.resisted),
         stepping_(step.stepping), observers_(step.observers), observed_(step.observers.any()), dt_(step.dt),
-        moves_(step.moves), moved_(stepped && stepping_->any_moved()),
+        moves_(step.moves), in_middle_(step.slips_in_middle()), moved_(stepped && stepping_->any_moved()),
         in_setup_(stepped && stepping_->in_setup()) {}
 
   /// The motion of the contacts; see also take_histories() and take_wall().
@@ -250,7 +252,7 @@ private:
     using physics::Slip;
     if constexpr (!rubs)
       return physics::compute_normal_forces<stepped, Slip::none, partner>(block, first, end, law, dt_);
-    if (moves_ && cap_ == Cap::coulomb)
+    if (in_middle_ && cap_ == Cap::coulomb)
       return physics::compute_normal_forces<stepped, Slip::in_middle, partner>(block, first, end, law, dt_);
     return physics::compute_normal_forces<stepped, Slip::at_end, partner>(block, first, end, law, dt_);
   }
@@ -332,7 +334,8 @@ private:
     const physics::StepMotion motion{overlap, block.rate_half[n],
                                      -physics::dot(block.velocity_before[n], block.normal[n]),
                                      stepping_->dt()};
-    const physics::StepContext context{moving_mass(n), block.damping_over_mass[n], in_setup_};
+    const physics::StepContext context{moving_mass(n), block.damping_over_mass[n], in_setup_,
+                                       in_setup_ && stepping_->continues(contact.i, contact.j)};
     const physics::ContactState before{block.force_before[n], (new_ >> n & 1) == 0};
     physics::ContactState state = before;
     const ContactCoefficients<Parameters> &coefficients = law_of(n);
@@ -352,6 +355,7 @@ private:
           share() * physics::heat_of_change(law, suction, motion, before, step, acting, context.m_eff), 0.0);
     block.push[n] = acting.kick;
     block.force[n] = state.force;
+    if (in_setup_) stepping_->load(contact.i, contact.j, std::fabs(state.force) + suction);
     if (!state.in_contact || !stepping_->counting()) return;
     stepping_->add_damping(contact.i, law.dashpot(overlap));
     if (!at_walls) stepping_->add_damping(contact.j, law.dashpot(overlap));
@@ -579,6 +583,7 @@ private:
   const bool observed_; // in this step
   const double dt_;
   const bool moves_;
+  const bool in_middle_;
   const bool moved_; // whether there are balls whose motion does not depend on the forces on them
   const bool in_setup_;
 

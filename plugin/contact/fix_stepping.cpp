@@ -89,6 +89,7 @@ void FixStepping::init() {
   comm_reverse =
       most_gathered; // for which the engine makes room at the start of each run; gather() may ask for less
   observers_.find(*modify);
+  between_ = FixBetweenRuns::provide(lmp);
   moved_bits_ = travelling_bits_ = free_bits_ = 0;
   prescribed_bits_ = {};
   varies_ = false;
@@ -153,6 +154,12 @@ void FixStepping::look_for_moved() {
 /// Velocities and masses at the start of the step. Other fixes may have changed them since the last one.
 void FixStepping::open_step() {
   if (!in_use_) return;
+  if (in_setup_)
+    between_->restore_forces([this](int i, const std::array<double, 3> &shift) {
+      for (std::size_t a = 0; a < 3; ++a)
+        atom->f[i][a] += shift[a];
+      shifts_.push_back({i, {}, shift, {}});
+    });
   double **v = atom->v;
   for (int i = 0; i < atom->nlocal; ++i) {
     double *before = row(i);

@@ -5,6 +5,7 @@
 
 #include "contact/contact_observer.h"
 #include "contact/contact_source.h"
+#include "contact/fix_between_runs.h"
 #include "engine.h"
 #include "physics/scheme/advance.h"
 #include "physics/laws/friction_law.h"
@@ -23,8 +24,8 @@ namespace LAMMPS_NS {
 /// than the next opening half kick: the fix changes the forces between the two, at the end of the step, and
 /// applies position corrections.
 ///
-/// It writes nothing to restart files: the set-up of a restarted run computes these values from positions,
-/// velocities and contact history.
+/// It writes nothing to restart files. A run that continues gets from FixBetweenRuns what the step before has
+/// left; what else it needs the set-up computes from positions, velocities and contact history.
 class FixStepping : public drumlin::engine::GhostFix {
 public:
   FixStepping(LAMMPS *, int, char **);
@@ -64,6 +65,16 @@ public:
   /// Whether forces are computed for the set-up of a run: velocities then belong to the time of the
   /// positions.
   bool in_setup() const { return in_setup_; }
+  /// In a set-up: whether any contact continues from the step before it.
+  bool any_continues() const { return in_setup_ && between_->any_continues(); }
+  /// In a set-up, of a contact of balls i and j (j < 0: a wall): whether its stored force is that of the step
+  /// before.
+  bool continues(int i, int j) const { return between_->continues(i) && (j < 0 || between_->continues(j)); }
+  /// In a set-up: see FixBetweenRuns::load().
+  void load(int i, int j, double newton) {
+    between_->load(i, newton);
+    if (j >= 0) between_->load(j, newton);
+  }
   /// Whether this rank computes the force on ball i of a contact: true for an owned ball, and with newton on,
   /// where one rank alone computes the contact, also for a ghost, whose force is sent to its owner. False for
   /// a wall (i = -1).
@@ -90,6 +101,12 @@ public:
     for (const Later &item : shifts_)
       if (atom->mask[item.i] & bits) total = drumlin::physics::sum(total, 1.0, item.shift);
     return total;
+  }
+  /// Calls `treat` with the index of each of this rank's balls that has such a force, and the force.
+  template <class Treat>
+  void for_each_shift(const Treat &treat) const {
+    for (const Later &item : shifts_)
+      treat(item.i, item.shift);
   }
   /// Whether there are balls whose motion, in one direction at least, does not depend on the forces on them:
   /// those of fix move and fix drum/travel, and those that no fix integrates. For this scheme they have
@@ -279,6 +296,7 @@ private:
   bool mass_differs_ = false;  // whether one of this rank's has changed since the step before,
   bool masses_change_ = false; // or one of any rank's
   const drumlin::ContactSource *source_ = nullptr; // since the set-up of the run
+  FixBetweenRuns *between_ = nullptr;
   double dt_ = 0.0;
   double told_dt_ = 0.0;     // time step of which the engine has told its fixes
   bool varies_ = false;      // whether a fix may change it, or the coefficients of contacts, within the run

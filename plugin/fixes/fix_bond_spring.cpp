@@ -53,6 +53,8 @@ FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : GhostFix(la
   }
 }
 
+void FixBondSpring::added() { numbering_ = FixBetweenRuns::provide(lmp)->numbering(); }
+
 int FixBondSpring::setmask() { return FixConst::PRE_NEIGHBOR | FixConst::POST_FORCE; }
 
 void FixBondSpring::init() {
@@ -60,6 +62,12 @@ void FixBondSpring::init() {
   stepping_ = FixStepping::find(lmp);
   observers_.find(*modify);
   clumps_.find(*modify);
+  if (FixBetweenRuns::provide(lmp)->numbering() != numbering_)
+    drumlin::engine::stop(lmp,
+                          fmt::format("fix bond/spring: balls are '{}' and '{}', IDs that other balls may "
+                                      "have now, since balls were renumbered; allowed: delete_atoms with "
+                                      "compress no, or the fix behind it",
+                                      tags_[0], tags_[1]));
   for (const int tag : tags_) {
     int mine = 0;
     for (int i = 0; i < atom->nlocal; ++i)
@@ -187,6 +195,11 @@ void FixBondSpring::setup(int vflag) {
     drumlin::engine::log_message(lmp, text);
   }
   echoed_ = true;
+  int continuing = 0;
+  for (const int i : local_)
+    if (i >= 0 && has_acted_ && stepping_ != nullptr && stepping_->continues(i, -1)) ++continuing;
+  MPI_Allreduce(MPI_IN_PLACE, &continuing, 1, MPI_INT, MPI_SUM, world);
+  continues_ = continuing == 2;
   post_force(vflag);
 }
 
@@ -199,8 +212,15 @@ void FixBondSpring::post_force(int vflag) {
       if (stepping_ && stepping_->counting()) stepping_->add_damping(i, bond_.damping);
       if (observers_.any() && state_.inverse_mass[b] > 0.0) observers_.tell_bond(i, tags_[1 - b], modes(b));
     }
+  if (!update->setupflag) has_acted_ = true;
   if (stepping_ != nullptr && !update->setupflag) return post_force_second_order();
-  store(physics::bond_force(bond_, state_.distance, state_.rate));
+  if (const double tension = acted_.force; continues_ && update->setupflag) {
+    store(bond_under(tension));
+    acted_.force = tension; // to the last bit
+    for (const int i : local_)
+      if (i >= 0) stepping_->load(i, -1, tension);
+  } else
+    store(physics::bond_force(bond_, state_.distance, state_.rate));
   apply(acted_.force);
 }
 
@@ -291,7 +311,10 @@ void FixBondSpring::store(const physics::BondForce &acting) {
 }
 
 void FixBondSpring::write_restart(FILE *file) {
-  drumlin::write_restart_record(file, comm->me, {current_length_ ? -1.0 : bond_.length, whole_ ? 1.0 : 0.0});
+  // Files of versions up to 0.4.0 end behind the second number, which is 0 or 1 there.
+  drumlin::write_restart_record(file, comm->me,
+                                {current_length_ ? -1.0 : bond_.length, (whole_ ? 1.0 : 0.0) + 2.0,
+                                 has_acted_ ? acted_.force : NAN, bond_.stiffness, bond_.damping});
 }
 
 void FixBondSpring::restart(char *buffer) {
@@ -300,7 +323,10 @@ void FixBondSpring::restart(char *buffer) {
     bond_.length = state[0];
     current_length_ = false;
   }
-  whole_ = state[1] != 0.0;
+  whole_ = state[1] != 0.0 && state[1] != 2.0;
+  if (state[1] < 2.0 || state[3] != bond_.stiffness || state[4] != bond_.damping) return;
+  acted_.force = state[2];
+  has_acted_ = !std::isnan(acted_.force);
 }
 
 double FixBondSpring::compute_vector(int n) {

@@ -2,6 +2,7 @@
 // fix bond/spring: a bonded spring-dashpot between two balls. See plugin/doc/fix_bond_spring.md.
 
 #include "contact/deck_check.h"
+#include "contact/fix_between_runs.h"
 #include "engine.h"
 #include "contact/contact_observer.h"
 #include "fixes/fix_clump.h"
@@ -18,6 +19,7 @@ class FixBondSpring : public drumlin::engine::GhostFix {
 public:
   FixBondSpring(LAMMPS *, int, char **);
 
+  void added() override;
   int setmask() override;
   void init() override;
   void setup_pre_neighbor() override;
@@ -66,10 +68,13 @@ private:
   drumlin::physics::Bond bond_;
   bool current_length_ = true; // the length is the distance at the first set-up
   bool whole_ = true;
+  int numbering_ = 0;                     // FixBetweenRuns::numbering() when the deck gave the IDs
   class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
   Clumps clumps_;                         // since the initialization of the run
   drumlin::DeckCheck deck_check_;
   bool echoed_ = false;
+  bool has_acted_ = false; // in a step, so that acted_ is the force at its end
+  bool continues_ = false; // whether the run continues from that step, under second-order stepping
   State state_{};
   drumlin::ContactObservers observers_;
   drumlin::physics::BondForce acted_{};

@@ -85,6 +85,11 @@ void FixBoundaryAbsorb::init() {
                           command, group->names[igroup])));
   ball_.along = ground_.along_normal(count_);
   ball_.across = ground_.in_plane(count_);
+  const std::vector<double> links{ball_.normal[0],       ball_.normal[1],     ball_.normal[2],
+                                  ball_.along.stiffness, ball_.along.damping, ball_.across.stiffness,
+                                  ball_.across.damping};
+  has_acted_ = has_acted_ && links == links_;
+  links_ = links;
   stepping_ = FixStepping::find(lmp);
   observers_.find(*modify);
   if (keep_static_) refuse_earlier_integration();
@@ -132,7 +137,9 @@ void FixBoundaryAbsorb::setup(int) {
   echo();
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {
-      grounded(i).force = ball_.force(displacement(i), vector_of(atom->v[i]));
+      // In a run that continues it is the force of the step before.
+      if (!has_acted_ || stepping_ == nullptr || !stepping_->continues(i, -1))
+        grounded(i).force = ball_.force(displacement(i), vector_of(atom->v[i]));
       add(i, physics::sum(grounded(i).force, 1.0, grounded(i).constant));
     }
   tell_observers();
@@ -158,6 +165,7 @@ void FixBoundaryAbsorb::initial_integrate(int) {
 }
 
 void FixBoundaryAbsorb::post_force(int) {
+  has_acted_ = true;
   coupled_.clear();
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {
@@ -285,11 +293,8 @@ int FixBoundaryAbsorb::unpack_exchange(int i, double *buf) {
 
 /// The engine expects the number of values first, itself included.
 int FixBoundaryAbsorb::pack_restart(int i, double *buf) {
-  std::array<double, exchanged> all{};
-  FixBoundaryAbsorb::pack_exchange(i, all.data());
-  buf[0] = restarted + 1;
-  std::copy_n(all.begin(), restarted, buf + 1);
-  return restarted + 1;
+  buf[0] = exchanged + 1;
+  return 1 + FixBoundaryAbsorb::pack_exchange(i, buf + 1);
 }
 
 /// Reads the values of this fix, which follow those of `nth` other fixes.
@@ -298,21 +303,28 @@ void FixBoundaryAbsorb::unpack_restart(int i, int nth) {
   for (int n = 0; n < nth; ++n)
     values += static_cast<int>(*values);
   std::array<double, exchanged> all{};
-  std::copy_n(values + 1, restarted, all.begin());
+  std::copy_n(values + 1, static_cast<int>(*values) - 1, all.begin()); // without forces up to version 0.4.0
   FixBoundaryAbsorb::unpack_exchange(i, all.data());
 }
 
-int FixBoundaryAbsorb::maxsize_restart() { return restarted + 1; }
-int FixBoundaryAbsorb::size_restart(int) { return restarted + 1; }
+int FixBoundaryAbsorb::maxsize_restart() { return exchanged + 1; }
+int FixBoundaryAbsorb::size_restart(int) { return exchanged + 1; }
 
 void FixBoundaryAbsorb::write_restart(FILE *file) {
-  drumlin::write_restart_record(file, comm->me, {heat_, static_known_ ? 1.0 : 0.0});
+  // Files of versions up to 0.4.0 end behind the second number, which is 0 or 1 there.
+  std::vector<double> state{heat_, (static_known_ ? 1.0 : 0.0) + 2.0, has_acted_ ? 1.0 : 0.0};
+  links_.resize(7);
+  state.insert(state.end(), links_.begin(), links_.end());
+  drumlin::write_restart_record(file, comm->me, state);
 }
 
 void FixBoundaryAbsorb::restart(char *buffer) {
   const double *state = reinterpret_cast<const double *>(buffer);
   heat_ = state[0];
-  static_known_ = state[1] != 0.0;
+  static_known_ = state[1] != 0.0 && state[1] != 2.0;
+  if (state[1] < 2.0) return;
+  has_acted_ = state[2] != 0.0;
+  links_.assign(state + 3, state + 10);
 }
 
 double FixBoundaryAbsorb::memory_usage() { return static_cast<double>(balls_.capacity() * sizeof(Grounded)); }

@@ -66,7 +66,7 @@ private:
     Vector constant{};  ///< force, N
     Vector force{};     ///< of springs and dashpots in the last step, N
   };
-  static constexpr int restarted = 6, exchanged = 9; // numbers of a Grounded, in its order
+  static constexpr int exchanged = 9; // numbers of a Grounded, in its order
 
   void parse(int narg, char **arg);
   void refuse_earlier_integration() const;
@@ -86,6 +86,8 @@ private:
   drumlin::physics::GroundedBall ball_; // the links of each ball
   bool keep_static_ = false;            // whether there are constant forces
   bool static_known_ = false;
+  bool has_acted_ = false;                // in a step, so that Grounded::force is that of its end,
+  std::vector<double> links_;             // with this normal, stiffness and damping
   class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
   drumlin::ContactObservers observers_;
   std::vector<Grounded> balls_; // an entry for each ball of this rank

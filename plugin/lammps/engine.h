@@ -70,6 +70,8 @@ public:
   /// Called at the beginning of a step, before velocities and positions change; if setmask() has
   /// `opens_step`. The fix must be defined before those that integrate.
   virtual void open_step() {}
+  /// Called once, when the engine knows the fix: it may add further fixes.
+  virtual void added() {}
 
   int pack_forward_comm(int n, int *balls, double *numbers, int periodic, int *shift) final {
     velocity_of_ghosts_ = velocity_of_image(*domain, periodic != 0 ? shift : nullptr);
@@ -83,6 +85,7 @@ public:
     return n * comm_reverse;
   }
   void unpack_reverse_comm(int n, int *balls, double *numbers) final { join_gathered(n, balls, numbers); }
+  void post_constructor() final { added(); }
   void final_integrate() final { close_forces(); }
   void initial_integrate(int) override { open_step(); }
 
@@ -110,6 +113,11 @@ constexpr const char *restart_alternative = ", or a data file NAME.data in the s
 
 /// Sets up a run, as the command `run` does before its first step.
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(1); }
+
+/// Whether the engine writes a restart file at a step of a run (command `restart`).
+inline bool writes_restart(const LAMMPS_NS::Output *output, bigint step) {
+  return output->next_restart == step;
+}
 
 /// A text in the type that error->all() takes unchanged. (It would take a pointer to characters for a format,
 /// and {} in it for an argument.)

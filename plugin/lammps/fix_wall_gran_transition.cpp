@@ -160,6 +160,7 @@ void FixWallGranTransition::check_coefficients() const {
 void FixWallGranTransition::setup(int vflag) { post_force(vflag); }
 
 void FixWallGranTransition::post_force(int) {
+  const VelocitiesOfStep velocities(lmp);
   force_ = {};
   std::visit(
       [this](const auto *table) {
@@ -176,7 +177,7 @@ void FixWallGranTransition::touch_balls(const drumlin::CoefficientTable<Paramete
   using Forces = drumlin::ContactForces<Parameters, stepped, tangential, rolling, physics::Partner::wall>;
   const drumlin::ContactStep<Parameters> step = pair_->step_of(table, places_of_side_);
   Forces forces(*atom, step);
-  const bool rolls = Forces::springs && step.cap == physics::Cap::coulomb && step.moves;
+  const bool rolls = Forces::springs && step.cap == physics::Cap::coulomb && step.slips_in_middle();
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
     region_ != nullptr ? find_faces(i, rolls) : find_planes(i);

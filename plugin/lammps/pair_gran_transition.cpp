@@ -191,6 +191,7 @@ void PairGranTransition::init_style() {
         history_id + " all " + FixNeighHistoryTransition::style_name + " " + std::to_string(places_.count()),
         1));
   if (has_history) history_->pair = this;
+  FixBetweenRuns::provide(lmp)->check_contacts("pair_style " + style_name(), has_history);
   stepping_ = settings_.stock ? nullptr : FixStepping::find(lmp);
 
   observers_.find(*modify);
@@ -319,6 +320,7 @@ void PairGranTransition::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   if (neighbor->ago == 0) share_rigid_masses();
   if (list->inum == 0) return; // there may be no arrays
+  const VelocitiesOfStep velocities(lmp);
   std::visit(
       [this](const auto &table) {
         drumlin::with_models(settings_, [&](auto stepped, auto tangential, auto rolling) {

@@ -9,6 +9,7 @@
 #include "engine.h"
 #include "commands/commands.h"
 #include "commands/fix_outputs.h"
+#include "contact/fix_between_runs.h"
 #include "contact/fix_stepping.h"
 #include "fixes/fixes.h"
 #include "lammps/fix_neigh_history_transition.h"
@@ -129,6 +130,8 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *lm
   // Helper fixes, which the pair style and the commands add; decks do not use them.
   registration.add_fix(FixNeighHistoryTransition::style_name, "contact history",
                        create_fix<FixNeighHistoryTransition>);
+  registration.add_fix(FixBetweenRuns::style_name, "what leads from one run to the next",
+                       create_fix<FixBetweenRuns>);
   registration.add_fix("drumlin/stepping", "second-order stepping", create_fix<FixStepping>);
   registration.add_fix(FixOutputs::style_name, "output files of a run", create_fix<FixOutputs>);
   registration.add_fix(FixStop::style_name, "signals that end a run", create_fix<FixStop>);

@@ -17,9 +17,9 @@
 
 #include "engine.h"
 #include "contact/deck_check.h"
+#include "contact/fix_between_runs.h"
 #include "contact/fix_stepping.h"
 #include "liggghts/pair_source.h"
-#include "liggghts/fix_keep_history.h"
 #include "liggghts/model_settings.h"
 #include "liggghts/loop_adapter.h"
 #include "liggghts/registration.h"
@@ -62,7 +62,7 @@ public:
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
     drumlin::ModelSettings words(engine_->error, command(), Models::rolls, narg, arg);
     torsion_ = words.has("torsionTorque", "on");
-    LAMMPS_NS::FixKeepHistory::provide(engine_);
+    LAMMPS_NS::FixBetweenRuns::provide(engine_);
     Base::settings(words.size(), words.words(), history);
   }
 
@@ -80,6 +80,7 @@ public:
         this->get_history_offset(drumlin::force_name) < 0 ? nullptr : LAMMPS_NS::FixStepping::find(engine_);
     PairSource::begin(pair_, Models::settings(stepping_ == nullptr));
     Base::init_granular();
+    LAMMPS_NS::FixBetweenRuns::provide(engine_)->check_contacts(command(), places().count() > 0);
     if (stepping_ != nullptr && pair_->storeContactForcesStress())
       engine_->error->all(
           FLERR, drumlin::engine::error_text(
@@ -96,6 +97,7 @@ public:
   }
 
   void compute_force(PairGran *pair, int eflag, int vflag, int adds) override {
+    const LAMMPS_NS::VelocitiesOfStep velocities(engine_);
     const bool history_is_there = places().count() > 0 || pair->listgranhistory == nullptr;
     if (history_is_there &&
         !drumlin::needs_engine_loop(*pair, *engine_->modify, eflag != 0 || vflag != 0, adds != 0)) {
@@ -149,6 +151,7 @@ public:
 
   void compute_force(FixWallGran *wall, SurfacesIntersectData &contact, bool touches, double *v_wall,
                      FixMeshSurface *fix_mesh, int mesh_number, TriMesh *mesh, int triangle) override {
+    const LAMMPS_NS::VelocitiesOfStep velocities(engine_, contact.i);
     report_.of_contact(*wall, contact, {fix_mesh, mesh, triangle, v_wall}, [&](FixMeshSurface *told) {
       Base::compute_force(wall, contact, touches, v_wall, told, mesh_number, mesh, triangle);
     });

@@ -69,6 +69,8 @@ public:
   /// Called at the beginning of a step, before velocities and positions change; if setmask() has
   /// `opens_step`.
   virtual void open_step() {}
+  /// Called once, when the engine knows the fix: it may add further fixes.
+  virtual void added() {}
 
   int pack_comm(int n, int *balls, double *numbers, int periodic, int *shift) final {
     velocity_of_ghosts_ = velocity_of_image(*domain, periodic != 0 ? shift : nullptr);
@@ -77,6 +79,7 @@ public:
     return comm_forward; // LIGGGHTS expects the number of values per ball
   }
   void unpack_comm(int n, int first, double *numbers) final { unpack_ghosts(n, first, numbers); }
+  void post_create() final { added(); }
   void pre_final_integrate() final { close_forces(); }
   void pre_initial_integrate() final { open_step(); }
 
@@ -105,6 +108,9 @@ constexpr const char *restart_alternative = "";
 
 /// Sets up a run, as the command `run` does before its first step.
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(); }
+
+/// Whether the engine writes a restart file at a step of a run (command `restart`).
+inline bool writes_restart(LAMMPS_NS::Output *output, bigint step) { return output->restart_requested(step); }
 
 /// A text in the type that error->all() takes.
 inline const char *error_text(const std::string &text) { return text.c_str(); }

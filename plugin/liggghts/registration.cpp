@@ -3,9 +3,9 @@
 #include "engine.h"
 #include "commands/commands.h"
 #include "commands/fix_outputs.h"
+#include "contact/fix_between_runs.h"
 #include "contact/fix_stepping.h"
 #include "fixes/fixes.h"
-#include "liggghts/fix_keep_history.h"
 #include "liggghts/registration.h"
 #include "stub.h"
 #include "support/deck_folder.h"
@@ -57,7 +57,7 @@ void add_fixes(LAMMPS *lmp) {
   });
   // Helper fixes, which the pair style and the commands add; decks do not use them.
   fixes["drumlin/stepping"] = create_fix<LAMMPS_NS::FixStepping>;
-  fixes[LAMMPS_NS::FixKeepHistory::style_name] = create_fix<LAMMPS_NS::FixKeepHistory>;
+  fixes[LAMMPS_NS::FixBetweenRuns::style_name] = create_fix<LAMMPS_NS::FixBetweenRuns>;
   fixes[LAMMPS_NS::FixStop::style_name] = create_fix<LAMMPS_NS::FixStop>;
   fixes[LAMMPS_NS::FixOutputs::style_name] = create_fix<LAMMPS_NS::FixOutputs>;
 }

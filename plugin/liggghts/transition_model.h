@@ -194,13 +194,14 @@ private:
     const physics::Vec3 normal{data.en[0], data.en[1], data.en[2]};
     data.deltan = data.radsum - data.r; // which other parts of the engine use
     if constexpr (partner == Partner::wall)
-      forces.take_wall(data.i, {normal,
-                                moves && turns ? normal_in_middle(data, normal) : normal,
-                                {data.v_j[0], data.v_j[1], data.v_j[2]},
-                                data.deltan,
-                                mass_of_body(data.i, data.mi),
-                                data.jtype,
-                                data.area_ratio});
+      forces.take_wall(data.i,
+                       {normal,
+                        turns && step(moves).slips_in_middle() ? normal_in_middle(data, normal) : normal,
+                        {data.v_j[0], data.v_j[1], data.v_j[2]},
+                        data.deltan,
+                        mass_of_body(data.i, data.mi),
+                        data.jtype,
+                        data.area_ratio});
     else
       take_balls(forces, data, mass_of_balls(data));
     forces.take_histories(&contact, 1);

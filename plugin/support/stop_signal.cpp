@@ -16,11 +16,13 @@ void count_signal(int number) {
   std::raise(number);
 }
 
-/// Ends the engine's runs if a rank has received a signal. Collective.
+/// Ends the engine's runs, after the present step, if a rank has received a signal. Collective.
 void end_runs_after_signal(drumlin::engine::LAMMPS *lmp) {
   int stop = signals;
   if (lmp->comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &stop, 1, MPI_INT, MPI_MAX, lmp->world);
-  if (stop != 0) drumlin::engine::end_runs(lmp);
+  if (stop == 0) return;
+  drumlin::engine::end_runs(lmp);
+  lmp->update->laststep = lmp->update->ntimestep;
 }
 
 constexpr const char *fix_id = "drumlin_stop";
@@ -53,7 +55,7 @@ bool drumlin::StopSignal::received(engine::LAMMPS *lmp) {
   return engine::runs_have_ended(lmp);
 }
 
-void LAMMPS_NS::FixStop::end_of_step() {
+void LAMMPS_NS::FixStop::post_integrate() {
   if (++steps_ < interval_) return;
   steps_ = 0;
   end_runs_after_signal(lmp);

@@ -37,14 +37,15 @@ private:
 namespace LAMMPS_NS {
 
 /// fix drumlin/stop, which StopSignal adds to the run; decks do not use it. On one rank it checks for a
-/// signal after every time step. On several ranks each check is a collective call that costs all of them
+/// signal in every time step. On several ranks each check is a collective call that costs all of them
 /// time, so it checks about fifty times a second. That is often enough: mpirun kills a rank one second after
 /// it has sent it SIGTERM.
 class FixStop : public Fix {
 public:
-  FixStop(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) { nevery = 1; }
-  int setmask() override { return FixConst::END_OF_STEP; }
-  void end_of_step() override;
+  using Fix::Fix;
+  int setmask() override { return FixConst::POST_INTEGRATE; }
+  /// Before the forces of the step, which FixBetweenRuns then knows for the last.
+  void post_integrate() override;
 
   static constexpr const char *style_name = "drumlin/stop";
 

@@ -2,9 +2,12 @@
 // same files, byte for byte, as a run without interruption.
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
+#include "tests/support/host_deck.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <regex>
 #include <string>
 
 namespace drumlin::test {
@@ -53,6 +56,32 @@ void expect_same_files(const std::string &name, Transition transition, const std
   EXPECT_EQ(post::read_table(left / "cycles.csv").rows(), 1 + 14u);
   EXPECT_GT(events_before, 3u);
   EXPECT_GT(post::read_events(left / "events.csv").size(), events_before + 3);
+}
+
+// Velocity or law changed between two runs: the force of the set-up is that of the present ones, not that of
+// the step before.
+TEST(ASetUp, TakesWhatTheDeckHasChangedBetweenTwoRuns) {
+  const std::string softer = property("kn", "5e6");
+  const struct {
+    std::string lines;
+    double k, c_of_rate;
+  } changes[] = {{"velocity all set 0 0 0 units box", 1e7, 0.0},
+                 {"unfix kn\n" + softer, 5e6, std::sqrt(2000 * 5e6)}, // c = 2 D sqrt(m k), D = 0.5
+                 {"", 1e7, std::sqrt(2000 * 1e7)}};
+  for (const auto &change : changes) {
+    const Scratch folder;
+    const std::string lines = "run 1500\n" + change.lines +
+                              "\ncompute f drum reduce sum fz\nthermo_style custom step c_f\nrun 0\n"
+                              "print \"force $(c_f) overlap $(0.75-xcm(drum,z)) rate $(-vcm(drum,z))\"";
+    const Outcome run = run_host(host_pair_style() + host_properties(), lines, folder.path(), 1);
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(run.output, found,
+                                  std::regex("\nforce ([0-9.e+-]+) overlap ([0-9.e+-]+) rate ([0-9.e+-]+)")))
+        << run.output;
+    const double force = std::stod(found[1]), d = std::stod(found[2]), rate = std::stod(found[3]);
+    const double expected = change.k * d + change.c_of_rate * rate - 2000 * 9.81;
+    EXPECT_NEAR(force, expected, 1e-6 * 2000 * 9.81) << change.lines;
+  }
 }
 
 class Restart : public ::testing::TestWithParam<int> {};

@@ -28,6 +28,11 @@ std::string host_properties(const std::string &text) {
   return lines;
 }
 
+std::string with_other_ids(const std::string &lines) {
+  return "create_atoms 1 single 1.5 1.5 -1 units box\nset type 1 diameter 1.0\nset type 1 mass 2000\n" +
+         lines + "\nrun 5\ngroup gone id 1\ndelete_atoms group gone";
+}
+
 std::vector<std::string> mpi_environment(const fs::path &folder) {
   return {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
           "OMPI_MCA_rmaps_base_oversubscribe=1", "OMPI_MCA_hwloc_base_binding_policy=none",

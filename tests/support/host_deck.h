@@ -16,6 +16,10 @@ std::string property(const std::string &name, const std::string &value);
 /// All properties that the contact law may ask for, but those that `text` gives itself.
 std::string host_properties(const std::string &text = "");
 
+/// Lines of the host deck of LIGGGHTS in which, between two runs, ball 4 gets the ID 1. \param lines before
+/// the first run
+std::string with_other_ids(const std::string &lines = "");
+
 /// Runs a deck with the plugin, output in a file; `words` follow the deck on the command line. Standard
 /// limit: 60 s.
 Outcome run_engine(const std::filesystem::path &deck, const std::vector<std::string> &words,

@@ -221,7 +221,9 @@ struct PulledSpring {
   double dashpot_heat = ct * dot(vt, vt) * dt;
   if (friction.cap == Cap::spring) {
     const double squared = kt * kt * dot(trial, trial);
-    sliding = squared > limit * limit;
+    // The spring of a contact that slid in the step before a set-up is at the limit within rounding errors.
+    const double rounding = dt > 0.0 || dot(trial, vt) <= 0.0 ? 0.0 : 1e-12;
+    sliding = squared > (1.0 - rounding) * limit * limit;
     if (sliding) {
       spring = scaled(limit / std::sqrt(squared), trial);
       pull = scaled(kt, spring);

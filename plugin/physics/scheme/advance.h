@@ -28,6 +28,7 @@ struct StepContext {
   double m_eff;                   ///< kg
   double damping_over_mass = 0.0; ///< sum of sqrt(c)/m over all contacts of both balls in the last step
   bool in_setup = false;          ///< set-up of a run: velocities belong to the time of the positions
+  bool continues = false;         ///< in a set-up: the stored force is that of the step before it
 };
 
 /// The forces of a contact in a step.
@@ -212,7 +213,7 @@ template <class Law>
   }
   state.in_contact = true;
   if (context.in_setup) {
-    state.force = law.force(motion.overlap, motion.rate_half);
+    if (!was_in_contact || !context.continues) state.force = law.force(motion.overlap, motion.rate_half);
     return {state.force, state.force, 0.0, 1.0};
   }
   // Both conditions are needed. An old contact with a small overlap may fulfil came_from_apart() as well:

@@ -125,6 +125,15 @@ BadGroup pair_style() {
        {"pair_style gran model hooke/transition: stepping is 'second' and there is a fix continuum/weighted",
         "stepping stock"},
        on_two_ranks});
+  group.inputs.push_back({"balls that get other IDs",
+                          with_other_ids(),
+                          {"pair_style gran model hooke/transition: history of contacts is 'of other balls'",
+                           "delete_atoms with compress no"},
+                          on_two_ranks});
+  group.inputs.push_back({"two contacts of two balls",
+                          thin_box("si", false),
+                          {"periodic box is '0.198 m' along x, in which balls 1 and 2 can touch on two sides",
+                           "at least two cutoffs"}});
   group.inputs.push_back(twice_in_a_hybrid());
   group.inputs.push_back(pair(
       "no kn", "", ratio,
@@ -270,6 +279,13 @@ BadGroup pair_style_in_lammps() {
        "pair_style @ ... fix body (rigid) ... stepping is 'second' ... stepping stock, or fix clump"},
       {"", "fix early all nve/sphere\npair_style @\npair_coeff * * 1e5 0.2\n",
        "pair_style @ ... fix early (nve/sphere) stands before it ... stepping stock"},
+      {"balls that get other IDs",
+       "pair_style @\npair_coeff * * 1e5 0.2\nfix integrate all nve/sphere\nrun 1\ndelete_atoms group soil\n"
+       "run 1",
+       "pair_style @: history of contacts is 'of other balls' ... delete_atoms with compress no",
+       on_two_ranks},
+      {"two contacts of two balls", thin_box("si", true),
+       "periodic box is '0.198 m' along x, in which balls 1 and 2 can touch on two sides ... two cutoffs"},
       {"units real", thin_box("real", true), "pair_style @: units is 'real' ... si, cgs, micro, nano or lj"},
       {"units metal", thin_box("metal", true),
        "pair_style @: units is 'metal' ... si, cgs, micro, nano or lj"},

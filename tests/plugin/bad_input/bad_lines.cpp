@@ -197,7 +197,7 @@ BadGroup contact_way() {
 }
 
 BadGroup bond_spring() {
-  return Table{"BondSpring", "fix bond/spring: ", "fix bond all bond/spring"}.of({
+  BadGroup group = Table{"BondSpring", "fix bond/spring: ", "fix bond all bond/spring"}.of({
       {"nothing", "@", "ball i is missing ... a whole number from 1"},
       {"one ball", "@ 2", "ball j is missing ... a whole number from 1"},
       {"no stiffness", "@ 2 3", "stiffness k is missing ... > 0"},
@@ -229,6 +229,16 @@ BadGroup bond_spring() {
        "damping c is '1e+14 N s/m', with the time constant m_eff/c of 6.67e-12 s ... at least 1e-09 s",
        in_the_run},
   });
+  // Without history of contacts, which the pair style would refuse.
+  group.inputs.push_back(
+      {"balls that get other IDs",
+       with_other_ids("fix bond all bond/spring 2 4 1e6 1e4"),
+       {"fix bond/spring: balls are '2' and '4', IDs that other balls may have now",
+        "delete_atoms with compress no"},
+       on_two_ranks,
+       {},
+       "pair_style gran model hooke/transition stepping stock\npair_coeff * *\n" + host_properties()});
+  return group;
 }
 
 BadGroup boundary_absorb() {

@@ -99,6 +99,23 @@ TEST_P(EitherCap, KeepsTheSpringInTheTangentPlane) {
   EXPECT_NEAR(step.stored + step.dissipated, before, 1e-15);
 }
 
+// The set-up of a run computes the force of the step before it again, from the spring that this has left.
+TEST_P(EitherCap, IsTheSameAfterTheStep) {
+  std::mt19937 random(86028121);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  int slid = 0;
+  for (int n = 0; n < 1000; ++n) {
+    const Vec3 v{any(random), any(random), 0.0}, before{0.0035 * any(random), 0.0035 * any(random), 0.0};
+    const FrictionStep step = friction_step(friction, 100.0, up, v, before, 3e-3);
+    const FrictionStep again = friction_step(friction, 100.0, up, v, step.spring, 0.0);
+    for (std::size_t a = 0; a < 3; ++a)
+      ASSERT_NEAR(again.force[a], step.force[a], 1e-9);
+    slid += step.sliding ? 1 : 0;
+  }
+  EXPECT_GT(slid, 200);
+  EXPECT_LT(slid, 800);
+}
+
 TEST_P(EitherCap, DoesNotMoveTheSpringInNoTime) {
   const Vec3 spring{1e-3, 0.0, 0.0};
   const FrictionStep step = friction_step(friction, 1e6, up, {0.5, 0.0, 0.0}, spring, 0.0);

@@ -303,6 +303,9 @@ TEST(SecondOrderStep, SetUpTakesTheVelocitiesAsTheyAre) {
   EXPECT_EQ(f.kick, f.force);
   EXPECT_FALSE(f.coupled);
   EXPECT_TRUE(state.in_contact);
+  state.force = 7.0; // a run that continues keeps the force of the step before it
+  const LinearLaw law(k, c, Transition::A);
+  EXPECT_EQ(advance(law, {1e-4, 0.3, 7.0, 1e-4}, state, {m, 1e12, true, true}).force, 7.0);
 }
 
 // Under B a contact may exist without a force: in its next step it continues and is not made again.
