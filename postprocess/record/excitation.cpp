@@ -717,9 +717,11 @@ std::string force_of_flights(double force) {
 
 /// Refuses a force of the exciter with which the drum does not fly, if it does with another one.
 void check_force(const Record &record) {
+  constexpr double near = 10.0 * degree; // the known phase
   for (const double ratio : {0.9, 1.1, 0.8, 1.2, 0.7, 1.35, 0.6, 1.5}) {
     const std::optional<FlightFit> fit = flights_of(record, ratio);
     if (!fit || std::fabs(fit->ratio.mean - 1.0) < machine_agreement) continue;
+    if (record.phase && std::fabs(std::remainder(fit->phase.mean - *record.phase, 2.0 * pi)) > near) continue;
     csv_fault(record.file, 0, {},
               refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
                       force_of_flights(fit->ratio.mean * *record.Fw)));
@@ -820,7 +822,7 @@ void take_flights(Record &record, const RecordOptions &options) {
     fit = flights_of(record);
   }
   if (!fit) {
-    check_turned(record);
+    if (!record.phase) check_turned(record);
     check_force(record);
     check_drift(record);
     return;

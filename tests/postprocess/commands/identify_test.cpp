@@ -371,8 +371,8 @@ TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
   expect_refused({"measured.csv", "--phase", "0", "--case", "CA9"}, "--case is 'CA9'; allowed: I, II");
 }
 
-// Unbroken contact, where nothing tells the phase, and one that is 20 degrees off. With 90 degrees the exciter
-// would take energy from the drum.
+// Unbroken contact, where nothing tells the phase, and one that is 20 degrees off. With 90 degrees the
+// exciter would take energy from the drum.
 TEST_F(IdentifyCommand, RefusesAResultThatContradictsItself) {
   post::ChainParameters p = low_CA3500();
   p.k = 1e7;

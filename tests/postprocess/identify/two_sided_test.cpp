@@ -192,7 +192,7 @@ TEST(TwoSided, IntervalsContainTheTruthWhereEndsLoseContact) {
 TEST(TwoSided, FindsTheSensorThatIsTurned) {
   std::mt19937_64 random(46);
   TwoEnds machine = axas();
-  set_soil(machine, 50e6, 1.6, 0.3, 0.3);
+  set_soil(machine, 25e6, 1.3, 0.4, 0.4);
   const Made right = measured(machine, 40, 40, 0.02 * g0, true, random);
   for (const auto &[name, turned] :
        {std::pair{"a_left", &Record::a_left}, std::pair{"a_right", &Record::a_right},
