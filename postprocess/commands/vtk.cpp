@@ -89,7 +89,7 @@ RunParameters run_parameters(const fs::path &folder) {
   std::optional<DriveHistory> drive;
   const auto deck = parameters.find("deck");
   if (deck != parameters.end() && deck->second == "drive" && fs::is_regular_file(folder / "bed.csv"))
-    drive = read_drive_history(folder / "bed.csv");
+    drive = read_drive_history(folder / "bed.csv", std::numeric_limits<std::size_t>::max());
   return {*dt, number("omega", positive, "a number > 0 in rad/s"), number("Fw", 0.0, "a number >= 0 in N"),
           noted_packings(parameters), std::move(drive)};
 }

@@ -148,8 +148,8 @@ private:
                   fmt::format("pass {} does not lead from one side of the measured part, {:g} to {:g} m, to "
                               "the other; allowed: passes over all of it",
                               number, drive_.measured.from, drive_.measured.to));
-      drive_.notes.push_back(
-          fmt::format("Pass {} is not finished and is left out: the run was stopped in it.", number));
+      drive_.notes.push_back(fmt::format(
+          "Pass {} is not finished and is left out: the run was stopped in it, or goes on.", number));
       return false;
     }
     for (auto at = steps_.lower_bound(begin); at != steps_.end() && at->first <= step; ++at)
@@ -274,15 +274,16 @@ Drive read_drive(const fs::path &folder) {
   drive.speed = number("speed", {0.0, 1e3, "m/s", false, true});
   const double timestep = number("timestep", {0.0, 1.0, "s", false, true});
   drive.timestep = timestep;
-  drive.history = read_drive_history(folder / "bed.csv");
   drive.record = read_record(folder);
+  const auto ended_row = parameters.find("ended");
+  const bool ended = ended_row != parameters.end() && ended_row->second == "yes";
+  // A run that goes on may have written further rows meanwhile.
+  drive.history = read_drive_history(folder / "bed.csv", drive.record.size() + (ended ? 1 : 0));
   if (drive.record.size() != drive.history.size())
     csv_fault(folder / "bed.csv", 0, {},
               fmt::format("has {} rows with a place and {} with a motion; allowed: the same number",
                           drive.history.size(), drive.record.size()));
-  const auto ended = parameters.find("ended");
-  Passes(drive, dumped_steps(folder / "dump"), timestep, ended != parameters.end() && ended->second == "yes")
-      .read();
+  Passes(drive, dumped_steps(folder / "dump"), timestep, ended).read();
   const std::vector<Ball> &balls = drive.states.front().balls;
   const auto dimension = parameters.find("dimension");
   drive.flat = dimension == parameters.end() ? in_a_plane(balls) : dimension->second != "3";

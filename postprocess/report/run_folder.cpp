@@ -260,7 +260,7 @@ void read_event_file(Run &run) {
   const fs::path file = run.folder / "events.csv";
   run.has_events = fs::is_regular_file(file);
   if (run.has_events)
-    run.events = read_events(file);
+    run.events = read_events(file, run.cut_rows());
   else
     run.missing.emplace_back("events.csv is missing: there is no table of events, and jumps, force at make "
                              "and share of time in contact are taken from samples.");
@@ -402,12 +402,12 @@ Run read_run(const fs::path &folder) {
   run.folder = folder;
   const fs::path record = record_of(folder);
   const bool bed = record.filename() == "bed.csv";
-  run.history = read_chain(record);
+  read_parameter_texts(run, bed);
+  run.history = read_chain(record, run.cut_rows());
   if (run.history.size() < 3)
     throw std::runtime_error(
         fmt::format("{}: {} rows; allowed are 3 or more", record.string(), run.history.size()));
   read_event_file(run);
-  read_parameter_texts(run, bed);
   read_parameter_values(run, bed);
   read_cycle_file(run);
   take_steps(run);

@@ -53,6 +53,8 @@ struct Run {
   std::string text(const std::string &parameter, const std::string &fallback = "not recorded") const;
   /// A parameter as a number, if it is there. Throws std::runtime_error for text that is no number.
   std::optional<double> number(const std::string &parameter) const;
+  /// How its tables are read: of a run that goes on, or was killed, the last row may not be whole.
+  CutRows cut_rows() const { return cut.empty() ? CutRows::refuse : CutRows::last; }
   Transition transition() const { return kind == RunKind::impact ? impact.transition : chain.transition; }
 };
 

@@ -1,30 +1,34 @@
 #include "runs/bed_files.h"
 
-#include "support/csv.h"
-
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
 
 namespace drumlin::post {
 
-BedHistory read_bed_history(const std::filesystem::path &file) {
-  const Table table = read_table(file);
+BedHistory read_bed_history(const std::filesystem::path &file, std::size_t rows, CutRows cut) {
+  const Table table = read_table(file, cut);
+  const auto numbers = [&](const char *column) {
+    std::vector<double> values = table.numbers(column);
+    values.resize(std::min(values.size(), rows));
+    return values;
+  };
   BedHistory bed;
-  bed.coordination = table.numbers("coordination");
-  bed.void_ratio = table.numbers("void_ratio");
-  bed.kinetic = table.numbers("kinetic");
-  bed.potential = table.numbers("potential");
-  bed.elastic = table.numbers("elastic");
-  bed.dissipated = table.numbers("dissipated");
-  bed.work_excitation = table.numbers("work_excitation");
-  bed.F_floor = table.numbers("F_floor");
-  bed.F_sides = table.numbers("F_sides");
-  bed.F_thrust = table.numbers("F_thrust");
+  bed.coordination = numbers("coordination");
+  bed.void_ratio = numbers("void_ratio");
+  bed.kinetic = numbers("kinetic");
+  bed.potential = numbers("potential");
+  bed.elastic = numbers("elastic");
+  bed.dissipated = numbers("dissipated");
+  bed.work_excitation = numbers("work_excitation");
+  bed.F_floor = numbers("F_floor");
+  bed.F_sides = numbers("F_sides");
+  bed.F_thrust = numbers("F_thrust");
   return bed;
 }
 
-DriveHistory read_drive_history(const std::filesystem::path &file) {
+DriveHistory read_drive_history(const std::filesystem::path &file, std::size_t most_rows) {
   struct Column {
     const char *name;
     std::vector<double> DriveHistory::*values;
@@ -45,7 +49,7 @@ DriveHistory read_drive_history(const std::filesystem::path &file) {
   }
   DriveHistory history;
   std::vector<std::string> cells;
-  while (rows.next(cells))
+  while (history.size() < most_rows && rows.next(cells))
     for (const Column &column : columns)
       (history.*column.values).push_back(csv_number(file, rows.line(), column.name, cells[column.place]));
   return history;

@@ -1,6 +1,8 @@
 // bed.csv of a run of a roller on a bed. Its columns that a chain has, too, are read by read_chain().
 #pragma once
 
+#include "support/csv.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <vector>
@@ -21,8 +23,9 @@ struct BedHistory {
   std::vector<double> F_thrust;        ///< N, sum of the normal forces of the side walls
 };
 
-/// Reads these columns of a bed.csv. Throws std::runtime_error with file, line and column.
-BedHistory read_bed_history(const std::filesystem::path &file);
+/// Reads these columns of the first `rows` rows of a bed.csv, to which a run that goes on adds others. Throws
+/// std::runtime_error with file, line and column.
+BedHistory read_bed_history(const std::filesystem::path &file, std::size_t rows, CutRows cut);
 
 /// The columns of the bed.csv of a roller that drives which say where it is and what drives it, a value for
 /// each row.
@@ -39,8 +42,8 @@ struct DriveHistory {
 };
 
 /// Reads these columns of a bed.csv, row by row, since a drive has millions of cells, without a last row that
-/// lacks its line end. Throws MissingColumn if the roller did not drive, else std::runtime_error with file,
-/// line and column.
-DriveHistory read_drive_history(const std::filesystem::path &file);
+/// lacks its line end, and at most so many rows. Throws MissingColumn if the roller did not drive, else
+/// std::runtime_error with file, line and column.
+DriveHistory read_drive_history(const std::filesystem::path &file, std::size_t most_rows);
 
 } // namespace drumlin::post

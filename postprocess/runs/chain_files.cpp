@@ -64,9 +64,9 @@ constexpr const char *known_cycle_columns[] = {
 
 } // namespace
 
-ChainHistory read_chain(const fs::path &file) {
+ChainHistory read_chain(const fs::path &file, CutRows cut) {
   // A long record has millions of cells: they go straight into numbers, not through a Table of text.
-  CsvRows rows(file);
+  CsvRows rows(file, cut);
   const auto any_of = [&](ColumnGroup group) {
     return std::any_of(history_columns.begin(), history_columns.end(), [&](const HistoryColumn &column) {
       return column.group == group && rows.find(column.name);
@@ -97,7 +97,9 @@ ChainHistory read_chain(const fs::path &file) {
   return history;
 }
 
-std::vector<ContactEvent> read_events(const fs::path &file) { return event_columns().rows(read_table(file)); }
+std::vector<ContactEvent> read_events(const fs::path &file, CutRows cut) {
+  return event_columns().rows(read_table(file, cut));
+}
 
 CycleColumns read_cycle_columns(const fs::path &file) {
   const Table table = read_table(file, CutRows::last);

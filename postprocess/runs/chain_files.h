@@ -120,9 +120,9 @@ struct CycleColumns {
 
 /// Reads chain.csv. The frame's four columns may be missing (all of them), so may those of the way, those of
 /// two ends, and F_excitation (then zeros).
-ChainHistory read_chain(const std::filesystem::path &file);
+ChainHistory read_chain(const std::filesystem::path &file, CutRows cut = CutRows::refuse);
 /// Reads events.csv.
-std::vector<ContactEvent> read_events(const std::filesystem::path &file);
+std::vector<ContactEvent> read_events(const std::filesystem::path &file, CutRows cut = CutRows::refuse);
 /// Reads the columns of a cycles.csv that are known; any may be missing. A last row without line end, which a
 /// run that was killed or a full disk leaves, is left out.
 CycleColumns read_cycle_columns(const std::filesystem::path &file);

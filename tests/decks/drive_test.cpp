@@ -221,7 +221,7 @@ TEST_F(BedDriven, KeepsTheFinishedPassesWhenCtrlCStopsItInOne) {
   EXPECT_GE(kept, 2U);
   EXPECT_LT(kept, 40U);
   EXPECT_TRUE(printed(outcome, "Pass " + std::to_string(kept + 1) +
-                                   " is not finished and is left out: the run was stopped in it."));
+                                   " is not finished and is left out: the run was stopped in it"));
 }
 
 TEST_F(BedDriven, GoesTheSameWayOnRanksOneTwoAndFour) {

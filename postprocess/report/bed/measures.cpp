@@ -105,7 +105,7 @@ BedResult analyse_bed(Run run) {
       throw std::runtime_error(fmt::format("{}: column '{}' is missing", cycles_file.string(), name));
   if (run.cycles->rows == 0) throw std::runtime_error(fmt::format("{}: has no rows", cycles_file.string()));
   BedResult result;
-  result.bed = read_bed_history(run.folder / "bed.csv");
+  result.bed = read_bed_history(run.folder / "bed.csv", run.history.size(), run.cut_rows());
   result.measures = measure(run, result.bed);
   result.run = std::move(run);
   return result;

@@ -16,11 +16,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <regex>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace drumlin::test {
@@ -576,6 +580,36 @@ TEST_F(Passes, OfOneSceneOnBedsOfTheirOwnArePooled) {
   refused({"run", "other"}, "both are of one bed, seed unknown");
   write_files({{parameters, earlier + "d50,0.04\nout,other\nranks,2\n"}});
   EXPECT_TRUE(passes({"run", "other"}).ok());
+}
+
+// Files of a run that goes on grow while they are read, and are not equally long.
+TEST_F(Passes, OfARunThatGoesOnAreThoseThatAreFinished) {
+  DriveRun run;
+  run.ended = "no";
+  write_run("run", run);
+  const std::string bed = read_text(folder_ / "run/bed.csv"), cycles = read_text(folder_ / "run/cycles.csv");
+  const auto begin_of = [](const std::string &text, double share) {
+    return text.find('\n', static_cast<std::size_t>(share * static_cast<double>(text.size()))) + 1;
+  };
+  for (const double share_of_cycles : {0.75, 0.8, 0.95}) {
+    const std::size_t begun = begin_of(bed, 0.8);
+    write_files({{folder_ / "run/bed.csv", bed.substr(0, begun)},
+                 {folder_ / "run/cycles.csv", cycles.substr(0, begin_of(cycles, share_of_cycles))}});
+    std::atomic<bool> done = false;
+    std::thread engine([&] {
+      std::ofstream file(folder_ / "run/bed.csv", std::ios::app);
+      const std::size_t most = begin_of(bed, 0.95); // of a pass that is not finished
+      for (std::size_t at = begun; at < most && !done; at += 50) {
+        file << bed.substr(at, std::min<std::size_t>(50, most - at)) << std::flush;
+        std::this_thread::sleep_for(std::chrono::microseconds(50));
+      }
+    });
+    const Outcome outcome = passes({"run"});
+    done = true;
+    engine.join();
+    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_TRUE(contains(outcome.output, {"2 passes compact", "Pass 3 is not finished and is left out"}));
+  }
 }
 
 TEST_F(Passes, RefusesInOneLine) {
