@@ -148,8 +148,8 @@ private:
                   fmt::format("pass {} does not lead from one side of the measured part, {:g} to {:g} m, to "
                               "the other; allowed: passes over all of it",
                               number, drive_.measured.from, drive_.measured.to));
-      drive_.notes.push_back(
-          fmt::format("Pass {} is not finished and is left out: the run was stopped in it, or goes on.", number));
+      drive_.notes.push_back(fmt::format(
+          "Pass {} is not finished and is left out: the run was stopped in it, or goes on.", number));
       return false;
     }
     for (auto at = steps_.lower_bound(begin); at != steps_.end() && at->first <= step; ++at)
