@@ -3,10 +3,9 @@
 //     drumlin_coverage [RECORDS OF EACH CLASS] [SEED] [CLASS]
 //
 // Each record is the motion of a random roller on random soil by CVODE (tests/support/two_ends_oracle.h), as
-// a logger would store it, with a roller's file as a data sheet would give it. A drum on one contact is a
-// drum with two ends on two equal ones. The program ends with status 1 if the intervals of all records
-// together contain the truth in less than 93 or more than 97.5 %, if one is beyond three half widths, or if
-// more than 5 % of the records with right data are refused.
+// a logger would store it, with a roller's file as a data sheet would give it. The program ends with status 1
+// if the intervals of all records together contain the truth in less than 93 or more than 97.5 %, if one is
+// beyond three half widths, or if more than 5 % of the records with right data are refused.
 #include "files/roller.h"
 #include "support/csv.h"
 #include "support/text.h"
