@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace drumlin::post {
@@ -19,17 +20,29 @@ std::size_t count_of(const std::vector<double> &sorted, double low, double high)
                                   std::lower_bound(sorted.begin(), sorted.end(), low));
 }
 
-/// Mean number of consecutive values from `low` to `high`.
-double mean_run(const std::vector<double> &values, double low, double high) {
-  std::size_t inside = 0, runs = 0;
+/// Runs of consecutive values from `low` to `high`.
+struct Runs {
+  double mean = 0.0;    ///< number of values
+  bool regular = false; ///< nine of ten begin as far behind the one before: samples repeat with each cycle
+};
+
+Runs runs_of(const std::vector<double> &values, double low, double high) {
+  std::size_t inside = 0, last = 0;
+  std::map<std::size_t, std::size_t> distances;
+  std::size_t runs = 0, most = 0;
   bool before = false;
-  for (const double value : values) {
-    const bool now = value >= low && value <= high;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool now = values[i] >= low && values[i] <= high;
     inside += now ? 1 : 0;
-    runs += now && !before ? 1 : 0;
+    if (now && !before) {
+      if (runs++ > 0) most = std::max(most, ++distances[i - last]);
+      last = i;
+    }
     before = now;
   }
-  return runs > 0 ? static_cast<double>(inside) / static_cast<double>(runs) : 0.0;
+  constexpr double nine_of_ten = 0.9;
+  return {static_cast<double>(inside) / static_cast<double>(std::max<std::size_t>(runs, 1)),
+          static_cast<double>(most) >= nine_of_ten * static_cast<double>(runs)};
 }
 
 /// Share of the values that are at the highest of them.
@@ -45,7 +58,8 @@ double share_at_top(const std::vector<double> &values) {
   constexpr double rare = 0.01;       // of the values
   constexpr double inside = 3.0;      // ranges inside that are compared
   constexpr int cells = 12, most = 9; // of these ranges, and how many have values in a record of all phases
-  constexpr double in_a_row = 2.5;    // or the values stay there
+  constexpr double in_a_row = 2.5;    // or the values stay there,
+  constexpr double far = 8.0, hardly = 6.0; // with hardly any in this many ranges below
   const auto all = static_cast<double>(values.size());
   double share = 0.0;
   for (double width = range / narrowest; width <= range / widest; width *= 2.0) {
@@ -67,7 +81,14 @@ double share_at_top(const std::vector<double> &values) {
     for (int n = 0; n < cells; ++n)
       filled +=
           count_of(sorted, low - (n + 1) * cell, std::nextafter(low - n * cell, low - range)) > 0 ? 1 : 0;
-    if (filled < most && mean_run(values, low, high) < in_a_row) continue;
+    // A record whose samples repeat with each cycle has few values anywhere: at a limit they stay, and leave
+    // it by far more than where a signal turns.
+    const Runs runs = runs_of(values, low, high);
+    const auto beyond =
+        static_cast<double>(count_of(sorted, low - far * width, std::nextafter(low, low - 1.0)));
+    if ((filled < most || runs.regular) &&
+        (runs.mean < in_a_row || hardly * beyond > static_cast<double>(here)))
+      continue;
     share = std::max(share, static_cast<double>(count_of(sorted, low, top)) / all);
   }
   return share;

@@ -47,31 +47,28 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Reads a deck in a folder, as the program `liggghts` would.
-[[noreturn]] void run(void (*add_styles)(void *input), const fs::path &folder, const fs::path &deck) {
+[[noreturn]] void run(const fs::path &folder, const std::string &deck) {
   is_copy = true;
   fs::current_path(folder);
   if (std::freopen("printed", "w", stdout) == nullptr) std::exit(2);
-  std::array<std::string, 3> words = {"liggghts", "-log", "none"};
-  std::array<char *, 3> pointers{};
+  std::array<std::string, 5> words = {"liggghts", "-log", "none", "-in", deck};
+  std::array<char *, 5> pointers{};
   for (std::size_t n = 0; n < words.size(); ++n)
     pointers.at(n) = words.at(n).data();
   auto *engine = new LAMMPS_NS::LAMMPS(static_cast<int>(words.size()), pointers.data(), MPI_COMM_WORLD);
-  add_styles(engine->input);
-  engine->input->file(deck.c_str());
+  engine->input->file(); // of the preloaded library, which this program is linked with
   delete engine;
   std::exit(0);
 }
 
-/// Begins MPI and loads the plugin; then, for each folder and deck that it reads, a copy of it runs the deck,
+/// Begins MPI and reads the plugin; then, for each folder and deck that it reads, a copy of it runs the deck,
 /// and it writes how the copy has ended.
 [[noreturn]] void serve(int requests, int answers) {
   std::list<std::string> settings;
   for (const std::string &setting : mpi_environment(fs::temp_directory_path()))
     ::putenv(settings.emplace_back(setting).data());
   MPI_Init(nullptr, nullptr);
-  void *plugin = dlopen(DRUMLIN_LIGGGHTS_PLUGIN, RTLD_NOW | RTLD_LOCAL);
-  if (plugin == nullptr) std::fprintf(stderr, "%s\n", dlerror());
-  const auto add_styles = reinterpret_cast<void (*)(void *)>(dlsym(plugin, "drumlin_register"));
+  dlopen(DRUMLIN_LIGGGHTS_PLUGIN, RTLD_NOW | RTLD_LOCAL); // once for all copies
   std::FILE *in = fdopen(requests, "r");
   const auto line = [in](std::string &text) {
     text.clear();
@@ -83,7 +80,7 @@ namespace {
   };
   for (std::string folder, deck; line(folder) && line(deck);) {
     const pid_t copy = fork();
-    if (copy == 0) run(add_styles, folder, deck);
+    if (copy == 0) run(folder, deck);
     int status = -1;
     waitpid(copy, &status, 0);
     if (write(answers, &status, sizeof status) != sizeof status) break;

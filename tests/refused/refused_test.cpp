@@ -53,7 +53,7 @@ constexpr const char *outputs =
 /// How a mistake is tried.
 enum class By { copy, program, ranks };
 
-void expect_refused(const Refusal &refusal, const Outcome &outcome, By by) {
+void expect_refused(const Refusal &refusal, const Outcome &outcome) {
   EXPECT_FALSE(outcome.timed_out);
   EXPECT_NE(outcome.status, 0);
   std::vector<std::string> errors;
@@ -62,12 +62,10 @@ void expect_refused(const Refusal &refusal, const Outcome &outcome, By by) {
       errors.push_back(line); // mpirun may add lines of its own when a rank ends
   ASSERT_EQ(errors.size(), 1U) << outcome.output;
   // The engine by itself adds a line to one error in five, by chance, with the same place in its source at
-  // its end. The preloaded library, which a copy does not have, takes it away.
+  // its end.
   const std::size_t at = errors.front().rfind(" (");
   const std::string place = at == std::string::npos ? errors.front() : errors.front().substr(at);
-  if (by != By::copy) {
-    EXPECT_EQ(outcome.output.find(place), outcome.output.rfind(place)) << outcome.output;
-  }
+  EXPECT_EQ(outcome.output.find(place), outcome.output.rfind(place)) << outcome.output;
   std::size_t behind = 0;
   for (const std::string &words : refusal.says) {
     const std::size_t found = errors.front().find(words, behind);
@@ -141,7 +139,7 @@ void try_refusal(const Refusal &refusal, By by) {
   const auto lost = [&] { return outcome.says("prterun detected") && !outcome.says("ERROR"); };
   for (int again = 0; again < 3 && lost(); ++again)
     outcome = run(refusal, scratch.path(), by);
-  expect_refused(refusal, outcome, by);
+  expect_refused(refusal, outcome);
   if (!refusal.in_the_run) earlier.expect_untouched();
 }
 

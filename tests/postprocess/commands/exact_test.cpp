@@ -3,6 +3,7 @@
 #include "chain/direct_solver.h"
 #include "runs/chain_files.h"
 #include "support/files.h"
+#include "tests/support/lines.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -617,8 +618,11 @@ TEST_F(ExactCommand, BadInputIsOneLineAndTouchesNothing) {
     const Outcome outcome = run("exact " + bad.arguments);
     EXPECT_EQ(outcome.status, 2) << bad.arguments;
     EXPECT_EQ(outcome.out, "") << bad.arguments;
-    EXPECT_EQ(outcome.err.rfind("ERROR: drumlin exact: ", 0), 0U) << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    const std::vector<std::string> lines = lines_of(outcome.err);
+    // Warnings of a roller file with numbers that no roller has may stand before it.
+    for (std::size_t line = 0; line < lines.size(); ++line)
+      EXPECT_EQ(lines[line].rfind(line + 1 < lines.size() ? "WARNING: " : "ERROR: drumlin exact: ", 0), 0U)
+          << outcome.err;
     for (const std::string &said : bad.said)
       EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err << "  misses: " << said;
   }

@@ -357,7 +357,7 @@ TEST(DriveStudy, MeasuresWhatPassesLeave) {
       {{scratch / "drive.plan",
         "title T\nquantity gain - gain passes.csv solid_fraction_2 [-]\n"
         "quantity settlement m last passes.csv settlement [m]\nquantity CMV - mean passes.csv CMV [-]\n"
-        "quantity cell - largest way.csv peak_force [N]\n"
+        "quantity cell N largest way.csv peak_force [N]\n"
         "deck bed/in.drive\nwidth 1\nratio 1\n"
         "layer 0.25 relative_density 0.9\nlayer 0.15 relative_density 0.1\n" +
             lines("set", soil) + lines("set", roller) + "set_placed place -0.3\n" + lines("set_run", drive) +

@@ -174,7 +174,7 @@ TEST(Excitation, FindsTheSensorThatIsTurned) {
       right.omega = options.omega;
       right.Fw = roller.Fw();
       if (with_phase) right.phase = options.phase = first_phase(roller, rate) + 2.0 * degree;
-      for (const std::string &turned : {"a_drum", "a_frame", "a_drum and a_frame", ""}) {
+      for (const std::string turned : {"a_drum", "a_frame", "a_drum and a_frame", ""}) {
         SCOPED_TRACE(turned + ", k " + std::to_string(k) + (with_phase ? ", with phase" : ""));
         Record record = right;
         for (auto &[name, values] :

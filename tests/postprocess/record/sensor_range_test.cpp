@@ -71,7 +71,7 @@ TEST(SensorRange, IsReached) {
 
 // Waves, drums that lose contact, the frame, in fine and coarse steps, with and without noise.
 TEST(SensorRange, IsNotReachedBySmoothSignals) {
-  for (const double rate : {500.0, 1000.0, 30.7 * 34.0, 5000.0})
+  for (const double rate : {500.0, 1000.0, 30.7 * 34.0, 30.7 * 36.0, 30.7 * 40.0, 5000.0})
     for (const double k : {14e6, 30e6, 60e6, 110e6, 180e6}) {
       SeenMotion seen = motion(k, rate);
       std::vector<double> wave;
