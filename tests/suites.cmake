@@ -1,7 +1,7 @@
 # Run by CMake when a test program has been built: writes a file for ctest with one test for each suite of
-# GoogleTest, so that a program is started once for a suite and not once for a case. Cases whose name matches
-# TWO_RANKS are a test of their own, which takes both cores; suites that begin with a word of TOGETHER, because
-# they share settled beds, are one test, which begins first.
+# GoogleTest, so that a program is started once for a suite and not once for a case. Cases whose name
+# matches TWO_RANKS are a test of their own, which takes both cores; suites that begin with a word of
+# TOGETHER, because they share settled beds, are one test, which begins first.
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests --gtest_filter=-${LEFT_OUT} OUTPUT_VARIABLE lines
                 COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX REPLACE "[;]|#[^\n]*" "" lines "${lines}") # names of parameters

@@ -34,20 +34,9 @@ public:
   std::vector<Refusal> read() {
     std::ifstream in(file_);
     if (!in) throw std::runtime_error("cannot read " + file_.string());
-    for (std::string line; std::getline(in, line);) {
+    for (std::string line; std::getline(in, line); take(line))
       ++line_;
-      if (line.empty() || line[0] == '#') continue;
-      if (line.find(" | ") != std::string::npos)
-        row(line);
-      else if (line == "command" || begins_with(line, "command "))
-        command_ = line.substr(std::min<std::size_t>(line.size(), 8)), beginning_.clear();
-      else if (begins_with(line, "@ "))
-        beginning_ = line.substr(2);
-      else if (begins_with(line, "deck "))
-        deck_ = line.substr(5);
-      else
-        fail("'" + line + "'; allowed: WORDS | MESSAGE, command, @ or deck");
-    }
+    take("");
     return std::move(rows_);
   }
 
@@ -56,9 +45,55 @@ private:
     throw std::runtime_error(fmt::format("{}:{}: {}", file_.string(), line_, what));
   }
 
-  void row(std::string line) {
+  /// One line of the file.
+  void take(const std::string &line) {
+    static const std::string message = "    | ", more = "    ";
+    const std::size_t bar = line.find(" | ");
+    if (begins_with(line, message) && !words_.empty()) {
+      says_ = line.substr(message.size());
+    } else if (begins_with(line, more) && !says_.empty()) {
+      says_ += line.substr(more.size() - 1);
+    } else {
+      finish();
+      if (line.empty() || line[0] == '#') {
+        if (!words_.empty()) fail("'" + words_ + "' has no message; allowed: WORDS | MESSAGE");
+      } else if (bar != std::string::npos) {
+        add_words(line.substr(0, bar));
+        says_ = line.substr(bar + 3);
+      } else if (line == "command" || begins_with(line, "command ")) {
+        command_ = line.substr(std::min<std::size_t>(line.size(), 8));
+        beginning_.clear();
+        may_begin_ = true;
+        return;
+      } else if (may_begin_ && begins_with(line, "@ ")) {
+        beginning_ = line.substr(2);
+      } else if (begins_with(line, "deck ")) {
+        deck_ = line.substr(5);
+      } else {
+        add_words(line);
+      }
+    }
+    may_begin_ = false;
+  }
+
+  void add_words(const std::string &line) {
+    words_ += (words_.empty() ? "" : "\n") + line;
+    if (place_ == 0) place_ = line_;
+  }
+
+  /// Makes a row of the words and the message that were read.
+  void finish() {
+    if (says_.empty()) return;
+    row();
+    words_.clear();
+    says_.clear();
+    place_ = 0;
+  }
+
+  void row() {
+    std::string &line = says_;
     Refusal row;
-    row.place = fmt::format("{}:{}", file_.string(), line_);
+    row.place = fmt::format("{}:{}", file_.string(), place_);
     row.lammps = lammps_;
     bool bare = false;
     for (; line.back() == '}'; line.erase(line.find_last_not_of(' ') + 1)) {
@@ -76,13 +111,12 @@ private:
         fail("mark is '" + mark + "'; allowed: {two ranks}, {in the run}, {engine's words} or {bare}");
       line.erase(at);
     }
-    const std::size_t bar = line.find(" | ");
-    row.says = parts_of(whole(line.substr(bar + 3)));
+    row.says = parts_of(whole(line));
     if (begins_with(row.says[0], "ERROR: "))
       row.says[0].erase(0, 7);
     else if (!command_.empty())
       row.says.insert(row.says.begin(), command_);
-    const std::string words = whole(replaced(line.substr(0, bar), "\\n", "\n"));
+    const std::string words = whole(replaced(words_, "\\n", "\n"));
     if (!deck_.empty()) {
       row.deck = deck_;
       for (std::string rest = words + ", "; !rest.empty(); rest.erase(0, rest.find(", ") + 2)) {
@@ -135,7 +169,9 @@ private:
   fs::path file_;
   bool lammps_;
   std::string command_, beginning_, deck_;
-  int line_ = 0;
+  bool may_begin_ = false;   // behind a line `command`
+  std::string words_, says_; // of a row that goes on
+  int line_ = 0, place_ = 0; // the present line, and that in which the row begins
   std::vector<Refusal> rows_;
 };
 

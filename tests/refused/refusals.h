@@ -7,11 +7,12 @@
 //     @ every 0 | keyword every is '0' ... a whole number from 1   {two ranks}
 //     deck bed/in.bed                     the rows below are variables of this deck, `NAME VALUE, NAME VALUE`
 //
-// A row has the lines of the host deck, with \n between them, and behind " | " the parts of the one error
-// line in their order, with " ... " between them; "ERROR: " before them: without the command. A line
-// `pair_style` at the beginning, with `property NAME VALUE` for all pairs and `material NAME VALUE` for all
-// types below it, replaces the host's. INPUTS is the folder of the decks, LONG a word of 5000 letters. Marks
-// at the end:
+// A row has lines of the host deck, and behind " | ", which may begin a line of its own after four blanks,
+// the parts of the one error line in their order, with " ... " between them; "ERROR: " before them: without
+// the command. A message goes on in lines that begin with four blanks. A line `pair_style` at the beginning
+// of a row, with `property NAME VALUE` for all pairs and `material NAME VALUE` for all types below it,
+// replaces the host's. \n is the end of a line within a value, INPUTS the folder of the decks, LONG a word of
+// 5000 letters. Marks at the end:
 //     {two ranks}       tried on two ranks, too
 //     {in the run}      shows in the run, after the output files were opened
 //     {engine's words}  the engine's own check comes first; its text does not say what is allowed
