@@ -338,7 +338,7 @@ TEST(DriveStudy, MeasuresWhatPassesLeave) {
   const Scratch scratch;
   const Variables soil = {{"case", "loose"}, {"friction", "0.8"}, {"rolling", "0.45"}},
                   roller = {{"m2", "100"},  {"m3", "50"},   {"r2", "0.1"},
-                                                        {"r3", "0.05"}, {"k23", "5e4"}, {"c23", "500"}},
+                            {"r3", "0.05"}, {"k23", "5e4"}, {"c23", "500"}},
                   drive = {{"speed", "2"},
                            {"ramp", "0.05"},
                            {"margin", "0.05"},
