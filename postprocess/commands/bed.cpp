@@ -126,7 +126,7 @@ MeasuredPackings known_packings(const std::string &file, const std::string &dens
   const fs::path path = file.empty() ? input_file(packings_file(box)) : path_option("--packings", file);
   if (!fs::exists(path))
     throw UsageError(refusal("--packings", file, "the density.csv of a run of inputs/soil/in.density"));
-  const MeasuredPackings packings = [&] {
+  MeasuredPackings packings = [&] {
     try {
       return read_packings(path);
     } catch (const std::runtime_error &fault) {

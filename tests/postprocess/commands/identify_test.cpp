@@ -113,7 +113,7 @@ TEST_F(IdentifyCommand, TellsTheSoilBelowEachHalf) {
   well(
       identify(with(file, {"--column", "a_frame=F", "--roller", "aside", "--phase", "0", "--out", "found"})));
   const post::Table aside = post::read_table(scratch_ / "found/identify.csv");
-  for (const auto &[half, k] : {std::pair{0, 24e6}, std::pair{1, 16e6}}) {
+  for (const auto &[half, k] : {std::pair{std::size_t{0}, 24e6}, std::pair{std::size_t{1}, 16e6}}) {
     const double off = std::fabs(post::number_from_text(aside.text("k [N/m]")[half]) - k);
     const double within = post::number_from_text(aside.text("k_machine [N/m]")[half]);
     const double noise = post::number_from_text(aside.text("k_half_width [N/m]")[half]);
