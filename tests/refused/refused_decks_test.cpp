@@ -34,6 +34,14 @@ std::vector<std::string> decks() {
   return all;
 }
 
+/// A rule with INPUTS in place of the folder of the decks.
+std::string in_any_folder(std::string rule) {
+  const std::string folder = inputs.string();
+  if (const std::size_t at = rule.find(folder); at != std::string::npos)
+    rule.replace(at, folder.size(), "INPUTS");
+  return rule;
+}
+
 // `rules` has a line for each variable of each deck. DRUMLIN_REWRITE=1 writes it anew, and git shows the
 // change.
 TEST(RefusedDecks, VariablesHaveTheirRules) {
@@ -41,7 +49,7 @@ TEST(RefusedDecks, VariablesHaveTheirRules) {
   for (const std::string &deck : decks())
     if (deck.find(".lammps") == std::string::npos)
       for (const post::DeckVariable &variable : post::deck_variables(inputs / deck, {}))
-        text += deck + " " + variable.name + " " + variable.rule + "\n";
+        text += deck + " " + variable.name + " " + in_any_folder(variable.rule) + "\n";
   const fs::path file = fs::path(DRUMLIN_SOURCE_DIR) / "tests/refused/rules";
   if (std::getenv("DRUMLIN_REWRITE") != nullptr) write_text(file, text);
   EXPECT_EQ(read_text(file), text);
