@@ -45,6 +45,19 @@ Runs runs_of(const std::vector<double> &values, double low, double high) {
           static_cast<double>(most) >= nine_of_ten * static_cast<double>(runs)};
 }
 
+/// The largest step of which two differences are multiples, to a millionth of the range: few different
+/// values, as of a record that repeats with its samples, are further apart than a sensor's step.
+double common_step(double one, double other, double range) {
+  const double rounding = 1e-6 * range;
+  while (other > rounding) {
+    double rest = std::fmod(one, other);
+    if (other - rest < rounding) rest = 0.0;
+    one = other;
+    other = rest;
+  }
+  return one;
+}
+
 /// Share of the values that are at the highest of them.
 double share_at_top(const std::vector<double> &values) {
   std::vector<double> sorted = values;
@@ -52,7 +65,7 @@ double share_at_top(const std::vector<double> &values) {
   const double top = sorted.back(), range = top - sorted.front();
   double step = range; // of the sensor
   for (std::size_t i = 1; i < sorted.size(); ++i)
-    if (sorted[i] - sorted[i - 1] > 1e-9 * range) step = std::min(step, sorted[i] - sorted[i - 1]);
+    if (sorted[i] - sorted[i - 1] > 1e-9 * range) step = common_step(step, sorted[i] - sorted[i - 1], range);
   constexpr double narrowest = 4096.0, widest = 16.0, steps = 2.5;
   constexpr double usual = 7.0;       // times as many as in a range inside, which no smooth signal has
   constexpr double rare = 0.01;       // of the values

@@ -69,6 +69,18 @@ TEST(SensorRange, IsReached) {
     }
 }
 
+// Samples that repeat with each cycle, without noise: few different values, far apart.
+TEST(SensorRange, IsReachedWhereSamplesRepeat) {
+  for (const double share : {0.6, 0.8}) {
+    std::vector<double> wave;
+    for (int i = 0; i < 3400; ++i)
+      wave.push_back(std::clamp(std::sin(2.0 * M_PI * (i % 34) / 34.0 + 0.1), -share, share));
+    const AtLimit at = share_at_limit(wave);
+    EXPECT_GT(at.high, 0.1);
+    EXPECT_GT(at.low, 0.1);
+  }
+}
+
 // Waves, drums that lose contact, the frame, in fine and coarse steps, with and without noise.
 TEST(SensorRange, IsNotReachedBySmoothSignals) {
   for (const double rate : {500.0, 1000.0, 30.7 * 34.0, 30.7 * 36.0, 30.7 * 40.0, 5000.0})
