@@ -3,6 +3,7 @@
 #include "commands/record_options.h"
 #include "commands/text_options.h"
 #include "meter/page.h"
+#include "record/excitation.h"
 #include "support/files.h"
 #include "support/options.h"
 
@@ -138,6 +139,7 @@ void run(const Arguments &arguments) {
   }
   MeterResult result;
   result.record = judged(arguments.record);
+  refuse_doubtful(result.record);
   result.cycles = meter_cycles(result.record);
   if (!result.cycles.vibrates)
     throw UsageError(refusal("Fw", "0", "a record of a roller that vibrates, else no meter shows anything"));

@@ -1,6 +1,7 @@
 #include "identify/identification.h"
 
 #include "chain/linear_algebra.h"
+#include "support/statistics.h"
 
 #include <algorithm>
 #include <array>
@@ -24,13 +25,6 @@ constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 // The three kinds of residuals.
 enum Channel : std::size_t { of_force, of_x, of_v, channels };
 using Levels = std::array<double, channels>;
-
-double rms(const std::vector<double> &values) {
-  double sum = 0.0;
-  for (const double value : values)
-    sum += value * value;
-  return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
-}
 
 // A least squares problem of one piece with its own unknowns eliminated.
 struct Projected {

@@ -6,6 +6,7 @@
 #include "record/excitation.h"
 #include "support/csv.h"
 #include "support/range.h"
+#include "support/statistics.h"
 
 #include <fmt/format.h>
 
@@ -168,13 +169,6 @@ namespace {
 
 /// Share of the drum's acceleration that may be left of a record behind the logger's filter.
 constexpr double most_left_of_filtered = 0.003;
-
-double rms(const std::vector<double> &values) {
-  double squares = 0.0;
-  for (const double value : values)
-    squares += value * value;
-  return std::sqrt(squares / static_cast<double>(values.size()));
-}
 
 /// Whether the record has what the equations of motion of drum and frame need, and no positions beside it.
 bool has_motion(const Record &record) {
@@ -347,6 +341,7 @@ IdentifiedRecord identify_from_any_phase(const Record &given, const RecordSettin
       IdentifiedRecord found = identify_with_phase(record, setting, law, progress);
       if (tells_phase(found)) return found;
     }
+    refuse_doubtful(given);
     return identify_with_phase(given, setting, law, progress); // says what is missing
   }
   IdentifiedRecord found = identify_with_phase(given, setting, law, progress);
@@ -363,6 +358,7 @@ IdentifiedRecord identify_from_any_phase(const Record &given, const RecordSettin
 IdentifiedRecord identify_record(const Record &record, const RecordSetting &setting,
                                  const std::function<void(const std::string &)> &progress) {
   IdentifiedRecord result = identify_from_any_phase(record, setting, progress);
+  if (!result.motion || !result.motion->is_noise || result.motion->any_force) refuse_doubtful(record);
   if (record.logger_filter && !result.motion)
     csv_fault(
         record.file, 0, {},

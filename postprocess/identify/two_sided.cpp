@@ -4,6 +4,7 @@
 #include "record/excitation.h"
 #include "support/csv.h"
 #include "support/range.h"
+#include "support/statistics.h"
 
 #include <fmt/format.h>
 
@@ -47,13 +48,6 @@ std::array<HalfStart, 2> single_contacts(const Record &record, const RecordSetti
     found[half].acceleration = std::move(halves[half].acceleration);
   }
   return found;
-}
-
-double rms(const std::vector<double> &values) {
-  double squares = 0.0;
-  for (const double value : values)
-    squares += value * value;
-  return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
 [[noreturn]] void refuse(const Record &record, const std::string &what, const std::string &found,
@@ -103,6 +97,7 @@ TwoSidedRecord identify_two_sided(const Record &record, const RecordSetting &set
   const std::optional<MotionFit> motion = fit_motion(record, contacts, known);
   constexpr double close = 0.05, as_noise = 1e-4; // of the drum's acceleration
   const double left = motion ? motion->residual / rms(record.a_left) : 1.0;
+  if (!motion || !motion->is_noise || motion->any_force) refuse_doubtful(record);
   if (!motion || (!motion->is_noise && left > close))
     refuse(record, "what the equations of motion of drum, frame, bond and a soil below each half leave",
            motion ? fmt::format("{:.3g} % of the drum's acceleration", 100.0 * left) : std::string("all"),

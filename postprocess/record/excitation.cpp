@@ -6,6 +6,7 @@
 #include "record/sensor_range.h"
 #include "support/csv.h"
 #include "support/range.h"
+#include "support/statistics.h"
 
 #include <fmt/format.h>
 
@@ -367,6 +368,8 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
     };
     flights.erase(std::remove_if(flights.begin(), flights.end(), too_long), flights.end());
     constexpr double rarest = 0.3; // flights in a cycle
+      fprintf(stderr, "round %d flights %zu of cycles %g width %g Fw %g noise %g ratio %g\n", round,
+              flights.size(), record.cycles(), width, forces.Fw, noise, std::hypot(exciter.a, exciter.b));
     if (static_cast<double>(flights.size()) < std::max(6.0, rarest * record.cycles())) return std::nullopt;
     for (Flight &flight : flights) { // a contact may have begun or ended between two samples
       ++flight.first;
@@ -388,6 +391,9 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
     lands += force[next->first] > 0.0 ? 1 : 0;
   }
   constexpr double most_often = 1.1, most_of_them = 0.9, most_share = 0.93, most_off = 0.6;
+    fprintf(stderr, "flat %d share %g ratio %g flights %zu/%g lands %zu/%zu\n",
+            are_flat(flights, force, weight, exciter.omega * record.interval), fit.share, fit.ratio.mean,
+            flights.size(), record.cycles(), lands, followed);
   if (!are_flat(flights, force, weight, exciter.omega * record.interval) || fit.share > most_share ||
       std::fabs(fit.ratio.mean - 1.0) > most_off ||
       static_cast<double>(flights.size()) > most_often * record.cycles() + 1.0 ||
@@ -486,6 +492,15 @@ std::vector<double> rises_of(const Record &record) {
   return times;
 }
 
+/// Whether most edges have no sample on their slope, so that their place between two samples is not known.
+bool edges_are_sharp(const Record &record) {
+  const auto [least, most] = std::minmax_element(record.pulse.begin(), record.pulse.end());
+  const double low = *least + 0.1 * (*most - *least), high = *most - 0.1 * (*most - *least);
+  const auto between = std::count_if(record.pulse.begin(), record.pulse.end(),
+                                     [low, high](double value) { return value > low && value < high; });
+  return static_cast<double>(between) < record.cycles();
+}
+
 /// The angle of the drum's motion at the record's frequency, without a constant, at some times, from four
 /// cycles around each [rad].
 std::vector<double> drum_angles(const Record &record, const std::vector<double> &times) {
@@ -535,7 +550,7 @@ void take_pulses(Record &record, const RecordOptions &options) {
     most = near;
   }
   const double farthest = most.empty() ? 0.0 : std::max(3.0 * degree, 5.0 * of_normal * median(most));
-  std::vector<double> times, angles;
+  std::vector<double> times, angles, angles_of_drum;
   std::size_t doubled = 0;
   double turns = -1.0;
   for (std::size_t i = 0; i < rises.size(); ++i) {
@@ -547,6 +562,7 @@ void take_pulses(Record &record, const RecordOptions &options) {
     turns = turn;
     times.push_back(rises[i]);
     angles.push_back(2.0 * pi * turn + options.pulse_angle);
+    angles_of_drum.push_back(of_drum[i]);
   }
   const std::size_t missing =
       times.empty() ? 0
@@ -575,17 +591,28 @@ void take_pulses(Record &record, const RecordOptions &options) {
     steps.push_back(std::fabs(left[i] - 2.0 * left[i - 1] + left[i - 2]));
   constexpr double of_median = 0.6744897501960817 * 2.449489742783178; // of a second difference
   const double scatter = steps.empty() ? 0.0 : median(steps) / of_median;
-  double squares = 0.0;
-  for (const double value : left)
-    squares += value * value;
-  const double wanders = std::sqrt(squares / static_cast<double>(left.size()));
+  const double wanders = rms(left);
   record.omega = line.slope.mean;
   record.phase = std::remainder(line.intercept.mean, 2.0 * pi);
+  // An edge between two samples is known to their distance: an error which comes back where a revolution
+  // takes nearly a whole number of samples, and which stays where all edges stand at one place between them.
+  std::size_t crossings = 1;
+  for (std::size_t i = 1; i < left.size(); ++i)
+    crossings += (left[i] > 0.0) != (left[i - 1] > 0.0) ? 1 : 0;
+  const double uneven = edges_are_sharp(record)
+                            ? std::max(0.0, 0.5 * *record.omega * record.interval - std::sqrt(3.0) * wanders)
+                            : 0.0;
   // Where on its slope an edge counts is known to some 2 % of the time between samples.
-  const double edge = 0.02 * *record.omega * record.interval;
-  record.phase_within = std::hypot(line.intercept.half_width, edge);
+  const double edge = std::hypot(0.02 * *record.omega * record.interval, uneven);
+  record.phase_within = std::hypot(2.0 * wanders / std::sqrt(static_cast<double>(crossings)), edge);
   constexpr double told = 0.3 * degree;
-  const bool drifts = wanders > std::max(told, 2.0 * scatter) && times.size() > 8;
+  // The drum's motion follows an angle that wanders.
+  const LineFit motion = fit_line(times, angles_of_drum);
+  std::vector<double> of_motion(times.size());
+  for (std::size_t i = 0; i < times.size(); ++i)
+    of_motion[i] = angles_of_drum[i] - motion.intercept.mean - motion.slope.mean * times[i];
+  const bool drifts =
+      wanders > std::max(told, 2.0 * scatter) && times.size() > 8 && rms(of_motion) > 0.5 * wanders;
   if (drifts) {
     constexpr double neighbours = 8.0; // pulses to either side, with less weight the farther they are
     record.phase_within = std::hypot(2.0 * scatter / std::sqrt(neighbours), edge);
@@ -708,23 +735,24 @@ void check_turned(Record record) {
                 "the drum flies");
 }
 
-std::string force_of_flights(double force) {
-  return fmt::format(
-      "within {:g} % of {:.4g} N, with which no force would act on the drum while it flies; to be "
-      "checked: eccentric moment or force, masses of drum and frame, signs and units",
-      100.0 * machine_agreement, force);
+/// The refusal of an exciter's force that is `ratio` times smaller than that with which the drum flies.
+std::string force_fault(const Record &record, double ratio) {
+  return refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
+                 fmt::format("within {:g} % of {:.4g} N, with which no force would act on the drum while it "
+                             "flies; to be checked: eccentric moment or force, masses of drum and frame, "
+                             "signs and units",
+                             100.0 * machine_agreement, ratio * *record.Fw));
 }
 
-/// Refuses a force of the exciter with which the drum does not fly, if it does with another one.
-void check_force(const Record &record) {
+/// Doubts a force of the exciter with which the drum does not fly, if it seems to with another one.
+void check_force(Record &record) {
   constexpr double near = 10.0 * degree; // the known phase
   for (const double ratio : {0.9, 1.1, 0.8, 1.2, 0.7, 1.35, 0.6, 1.5}) {
     const std::optional<FlightFit> fit = flights_of(record, ratio);
     if (!fit || std::fabs(fit->ratio.mean - 1.0) < machine_agreement) continue;
     if (record.phase && std::fabs(std::remainder(fit->phase.mean - *record.phase, 2.0 * pi)) > near) continue;
-    csv_fault(record.file, 0, {},
-              refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
-                      force_of_flights(fit->ratio.mean * *record.Fw)));
+    record.doubt = force_fault(record, fit->ratio.mean);
+    return;
   }
 }
 
@@ -753,28 +781,39 @@ double wander_of(const Record &record) {
 
 } // namespace
 
-void refuse_drift(const Record &record) {
+namespace {
+
+/// The refusal of a record whose phase wanders by so many degrees; empty if it may be taken.
+std::string drift_fault(double wander) {
   constexpr double most = 6.0; // degrees
-  const double wander = wander_of(record);
-  if (wander > most)
-    csv_fault(record.file, 0, {},
-              refusal("the phase of the drum's motion",
-                      fmt::format("wandering by {:.3g} degrees over the record", wander),
-                      fmt::format(
-                          "up to {:g} degrees where no flights of the drum tell one phase of the exciter; a "
-                          "shorter part of the record may have one frequency, and pulses once per "
-                          "revolution (--column pulse) follow one that drifts",
-                          most)));
+  if (wander <= most) return {};
+  return refusal(
+      "the phase of the drum's motion", fmt::format("wandering by {:.3g} degrees over the record", wander),
+      fmt::format("up to {:g} degrees where no flights of the drum tell one phase of the exciter; a shorter "
+                  "part of the record may have one frequency, and pulses once per revolution (--column "
+                  "pulse) follow one that drifts",
+                  most));
+}
+
+} // namespace
+
+void refuse_drift(const Record &record) {
+  if (const std::string fault = drift_fault(wander_of(record)); !fault.empty())
+    csv_fault(record.file, 0, {}, fault);
+}
+
+void refuse_doubtful(const Record &record) {
+  if (!record.doubt.empty()) csv_fault(record.file, 0, {}, record.doubt);
 }
 
 namespace {
 
-/// Refuses a frequency that varies so much that a given phase does not describe the record.
+/// Doubts a frequency that varies so much that a given phase may not describe the record.
 void check_drift(Record &record) {
-  if (!record.phase) return; // the whole motion may tell it
-  refuse_drift(record);
+  if (!record.phase) return;   // the whole motion may tell it
   constexpr double told = 0.3; // degrees
   const double wander = wander_of(record);
+  if (record.doubt.empty()) record.doubt = drift_fault(wander);
   if (wander > told) {
     record.phase_within = 2.0 * wander * degree;
     record.notes.push_back(fmt::format("the phase of the drum's motion wanders by {:.2g} degrees over the "
@@ -827,16 +866,17 @@ void take_flights(Record &record, const RecordOptions &options) {
     check_drift(record);
     return;
   }
+  if (std::fabs(fit->ratio.mean - 1.0) > machine_agreement + fit->ratio.half_width) {
+    record.doubt = force_fault(record, fit->ratio.mean);
+    check_drift(record);
+    return;
+  }
   const std::optional<double> said = record.phase;
   record.notes.push_back(fmt::format(
       "{} flights, {:.1f} % of the time, give {:.8g} +- {:.2g} Hz, a phase of {:.3f} +- {:.2g} degrees and "
       "an exciter's force {:.4f} +- {:.2g} times that given",
       fit->flights, 100.0 * fit->share, fit->omega.mean / (2.0 * pi), fit->omega.half_width / (2.0 * pi),
       fit->phase.mean / degree, fit->phase.half_width / degree, fit->ratio.mean, fit->ratio.half_width));
-  if (std::fabs(fit->ratio.mean - 1.0) > machine_agreement + fit->ratio.half_width)
-    csv_fault(record.file, 0, {},
-              refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
-                      force_of_flights(fit->ratio.mean * *record.Fw)));
   if (said) {
     constexpr double most = 20.0; // degrees
     const double off = std::remainder(fit->phase.mean - *said, 2.0 * pi) / degree;

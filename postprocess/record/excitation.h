@@ -65,10 +65,14 @@ std::array<std::vector<double>, 2> through_bond(const Record &record,
 /// motion wanders by more than a steady frequency explains; std::runtime_error of one line.
 void refuse_drift(const Record &record);
 
+/// Refuses a record with a doubt: for whoever does not know that the whole motion follows it to its noise.
+void refuse_doubtful(const Record &record);
+
 /// Takes the exciter's frequency, and if the drum flies its phase, from a measured record whose nominal
 /// frequency is given; removes offsets of accelerations; notes what was found. A record of a run, or with a
 /// measured F_excitation, stays as it is. std::runtime_error of one line: no line near the nominal frequency;
 /// a phase that flights contradict; accelerations whose sign is turned.
+/// What only seems to contradict the record becomes its doubt.
 void settle_excitation(Record &record, const RecordOptions &options);
 
 } // namespace drumlin::post

@@ -80,11 +80,6 @@ double factor_of(const std::string &unit, UnitKind quantity) {
   return negative ? -known->factor : known->factor;
 }
 
-double rms(const std::vector<double> &values) {
-  const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
-  return values.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(values.size()));
-}
-
 double mean(const std::vector<double> &values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }

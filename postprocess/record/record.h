@@ -82,6 +82,9 @@ struct Record : ChainHistory {
   std::vector<double> wander;
   /// A signal that rises once in each revolution of the exciter, in any unit; empty without one.
   std::vector<double> pulse;
+  /// Why the excitation may be another than was said, as a refusal: so it is unless the whole motion follows
+  /// the record to its noise. Empty: nothing speaks against it.
+  std::string doubt;
   double low_pass = 0.0;         ///< cut-off of the filter that all signals passed [Hz]; 0: none
   bool excitation_read = false;  ///< F_excitation is from the file
   std::optional<double> Fw;      ///< amplitude of the excitation force [N]

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -22,6 +23,11 @@ double quantile(std::vector<double> values, double share) {
 }
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
+
+double rms(const std::vector<double> &values) {
+  const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+  return values.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(values.size()));
+}
 
 Spread spread(const std::vector<double> &values) {
   return {median(values), quantile(values, 0.25), quantile(values, 0.75)};
