@@ -6,6 +6,7 @@
 #include "support/text.h"
 #include "support/units.h"
 
+#include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/erase.hpp>
 #include <fmt/format.h>
@@ -99,8 +100,8 @@ SieveCurve SieveCurve::coarser_than(double size) const {
 namespace {
 
 /// The numbers of a column, none blank.
-std::vector<double> all_numbers(const MeasuredTable &table, std::size_t column) {
-  std::vector<double> values = table.numbers(column);
+std::vector<double> all_numbers(const MeasuredTable &table, std::size_t column, const char *zero = "") {
+  std::vector<double> values = table.numbers(column, zero);
   for (std::size_t row = 0; row < values.size(); ++row)
     if (std::isnan(values[row])) table.refuse(row, column, "a finite number");
   return values;
@@ -179,6 +180,11 @@ SieveCurve read_sieve_file(const std::filesystem::path &file) {
   const MeasuredTable table(file);
   const std::optional<std::size_t> size_column = column_named(table, {"size", "sieve size", "sieve"});
   if (!size_column) table.missing("size");
+  constexpr const char *pan_name = "pan";
+  for (const std::string &word : table.columns()[*size_column].others) // a first row without a number
+    if (boost::iequals(word, pan_name))
+      csv_fault(file, 0, table.columns()[*size_column].header,
+                refusal("the first row", word, "in the last row"));
   SieveColumn meaning = SieveColumn::passing;
   std::optional<std::size_t> column = column_named(table, {"passing", "cumulative passing"});
   if (!column) {
@@ -191,7 +197,7 @@ SieveCurve read_sieve_file(const std::filesystem::path &file) {
   }
   if (!column) table.missing("passing (%)");
   const MeasuredColumn &named = table.columns()[*column];
-  const std::vector<double> sizes = all_numbers(table, *size_column);
+  const std::vector<double> sizes = all_numbers(table, *size_column, pan_name);
   const std::vector<double> shares = all_numbers(table, *column);
   const double unit = unit_of_sizes(table, *size_column);
   // Rows from the finest sieve on; a file may begin with the coarsest.

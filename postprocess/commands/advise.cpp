@@ -125,7 +125,8 @@ void run_bed(const Arguments &arguments) {
   const std::string unit = request.absolute ? "mm" : "%";
   const bool complete = advice.scene == &experiment.plan.scenes.front();
   fmt::print("{}: {}\n", advice.scene->name,
-             complete ? "no cheaper scene keeps to the error that is allowed" : advice.differs);
+             complete ? "all its parts are needed: no cheaper scene is known to be within the error"
+                      : advice.differs);
   fmt::print("  for        {} within {:g} {}\n", bed_quantity(request.quantity)->label,
              scale * request.within, unit);
   if (!complete)

@@ -134,7 +134,9 @@ void show(const Record &record, const fs::path &out) {
 void run(const Arguments &arguments) {
   Task task = judge(arguments);
   if (arguments.show) {
-    show(judged(arguments.record), task.out);
+    RecordArguments record = arguments.record;
+    record.guess = true;
+    show(judged(record), task.out);
     return;
   }
   MeterResult result;

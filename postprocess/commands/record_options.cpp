@@ -256,6 +256,7 @@ std::vector<GivenPath> files_of(const RecordArguments &arguments) {
 
 Record judged(const RecordArguments &arguments) {
   RecordOptions options;
+  options.guess = arguments.guess;
   const std::vector<std::filesystem::path> paths = paths_of(arguments);
   if (arguments.separator)
     options.format.separator =

@@ -29,7 +29,8 @@ struct RecordArguments {
   std::optional<std::string> sampling_rate, frequency, phase, Fw, me_re, m2, m3, low_pass, pulse_angle,
       corner_frequency, k23, c23, logger_low_pass;
   std::optional<std::string> bond_tolerance; ///< of identify alone
-  double exciter_shift = 0.0;                ///< from where the roller's file has the exciter [m]
+  bool guess = false;         ///< what the columns are, where no name is known: of meter --show
+  double exciter_shift = 0.0; ///< from where the roller's file has the exciter [m]
 };
 
 /// Adds RECORD, --column and so on; `arguments` must outlive the app.

@@ -301,7 +301,7 @@ IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &
     known.search = setting.search;
     if (progress) progress("the motion from contact to contact");
     if (const std::optional<MotionFit> motion = fit_motion(record, result.whole, known)) {
-      const double close = record.logger_filter ? most_left_of_filtered : 0.05; // of the drum's acceleration
+      const double close = record.logger_filter ? most_left_of_filtered : MotionFit::close;
       result.left = motion->residual / rms(record.a_drum);
       if (motion->is_noise || *result.left < close) {
         take_motion(*motion, record, result);
@@ -358,7 +358,7 @@ IdentifiedRecord identify_from_any_phase(const Record &given, const RecordSettin
 IdentifiedRecord identify_record(const Record &record, const RecordSetting &setting,
                                  const std::function<void(const std::string &)> &progress) {
   IdentifiedRecord result = identify_from_any_phase(record, setting, progress);
-  if (!result.motion || !result.motion->is_noise || result.motion->any_force) refuse_doubtful(record);
+  if (!result.motion || !result.motion->follows(*result.left)) refuse_doubtful(record);
   if (record.logger_filter && !result.motion)
     csv_fault(
         record.file, 0, {},

@@ -10,9 +10,11 @@
 #pragma once
 
 #include "identify/identification.h"
+#include "record/excitation.h"
 #include "record/record.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -46,6 +48,13 @@ struct MotionFit {
   /// wrong data of the machine, too.
   bool is_long() const { return cycles >= 3.0; }
   bool any_force = false; ///< nothing followed the record to its noise with the force that is said
+  /// Share of the drum's acceleration that a right soil, frame and machine may leave.
+  static constexpr double close = 0.05;
+  /// Whether one motion follows the record, with about the force that is said. \param left of the drum's
+  /// acceleration [-]
+  bool follows(double left) const {
+    return (is_noise || (is_long() && left < close)) && std::fabs(force.mean - 1.0) < machine_agreement;
+  }
 };
 
 /// What is known besides the record.

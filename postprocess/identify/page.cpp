@@ -67,10 +67,13 @@ bool phase_decides(const IdentifiedRecord &record) {
 std::string source_sentence(const IdentifiedRecord &record) {
   if (record.motion)
     return fmt::format(
-        "From the whole motion of drum and frame: one motion follows {:.4g} cycles and leaves "
-        "{:.2g} m/s2 of the drum's acceleration{}; the bond has {:.4g} MN/m and {:.4g} kN s/m{}.",
+        "From the whole motion of drum and frame: one that is computed with these values stays with the "
+        "record for {:.4g} cycles, but for {:.2g} m/s2 (RMS) of the drum's acceleration, {}; the bond has "
+        "{:.4g} MN/m and {:.4g} kN s/m{}.",
         record.motion->cycles, record.motion->residual,
-        record.motion->is_noise ? ", which is noise" : ", more than noise, which widens the intervals",
+        record.motion->is_noise ? "the noise of the sensor"
+                                : "more than the noise of the sensor: soil or machine are not quite those of "
+                                  "the equations, and the intervals are wider for it",
         record.motion->bond_stiffness / 1e6, record.motion->bond_damping / 1e3,
         record.frame_computed ? ", and the frame, which no sensor measures, follows from it" : "");
   std::string text = record.positions ? "From accelerations, position and velocity of the drum"
@@ -109,7 +112,8 @@ std::string report_sentence(const IdentifiedRecord &record) {
               ? std::string()
               : fmt::format(
                     " Its windows, which follow single contacts, have k = {:.4g} MN/m in the mean, {:+.1f} "
-                    "%: a low-pass of the logger, even a mild one, explains it (--logger-low-pass).",
+                    "%; a low-pass of the logger, even a mild one, makes such a difference "
+                    "(--logger-low-pass).",
                     of_windows / 1e6, 100.0 * off));
 }
 
@@ -444,11 +448,12 @@ std::vector<std::string> identification_answer(const TwoSidedRecord &record) {
                               with_interval(record.ratio, 1.0)));
   const MotionFit &motion = record.motion;
   lines.push_back(fmt::format(
-      "From the whole motion of drum and frame with their tilts: one motion follows {:.4g} cycles and leaves "
-      "{:.2g} m/s2 of the acceleration of the drum's left end{}; condition {} {}; the bond has {:.4g} MN/m "
-      "and {:.4g} kN s/m{}.",
+      "From the whole motion of drum and frame with their tilts: one that is computed with these values "
+      "stays "
+      "with the record for {:.4g} cycles, but for {:.2g} m/s2 (RMS) of the acceleration of the drum's left "
+      "end, {}; condition {} {}; the bond has {:.4g} MN/m and {:.4g} kN s/m{}.",
       motion.cycles, motion.residual,
-      motion.is_noise ? ", which is noise" : fmt::format(", {:.2g} % of it", 100.0 * record.left),
+      motion.is_noise ? "the noise of the sensor" : fmt::format("{:.2g} % of it", 100.0 * record.left),
       motion.pulls ? "A" : "B", motion.pull_is_clear ? "fits better" : "is as good as the other one",
       motion.bond_stiffness / 1e6, motion.bond_damping / 1e3,
       record.frame_computed ? ", and the frame, which no sensor measures, follows from it" : ""));

@@ -95,13 +95,13 @@ TwoSidedRecord identify_two_sided(const Record &record, const RecordSetting &set
   known.search = setting.search;
   if (progress) progress("the motion from contact to contact");
   const std::optional<MotionFit> motion = fit_motion(record, contacts, known);
-  constexpr double close = 0.05, as_noise = 1e-4; // of the drum's acceleration
+  constexpr double as_noise = 1e-4; // of the drum's acceleration
   const double left = motion ? motion->residual / rms(record.a_left) : 1.0;
-  if (!motion || !motion->is_noise || motion->any_force) refuse_doubtful(record);
-  if (!motion || (!motion->is_noise && left > close))
+  if (!motion || !motion->follows(left)) refuse_doubtful(record);
+  if (!motion || (!motion->is_noise && left > MotionFit::close))
     refuse(record, "what the equations of motion of drum, frame, bond and a soil below each half leave",
            motion ? fmt::format("{:.3g} % of the drum's acceleration", 100.0 * left) : std::string("all"),
-           fmt::format("up to {:g} %; to be checked: {}", 100.0 * close, causes));
+           fmt::format("up to {:g} %; to be checked: {}", 100.0 * MotionFit::close, causes));
   result.motion = *motion;
   result.left = left;
   result.frequency = motion->omega.mean / (2.0 * 3.14159265358979323846);

@@ -34,6 +34,20 @@ const Range &range_of(const std::string &name) {
                                : me_re_range;
 }
 
+/// The factor to SI of a unit with a k or M before that of SI, or of t; nothing of others.
+std::optional<double> factor_of(const std::string &unit, const std::string &si) {
+  if (si.empty()) return std::nullopt;
+  if (unit == si) return 1.0;
+  if (unit == "k" + si || (unit == "t" && si == "kg")) return 1e3;
+  if (unit == "M" + si) return 1e6;
+  return std::nullopt;
+}
+
+/// Below which a number without a unit was meant in another one; 0: any may be meant.
+double least_without_unit(const std::string &name) {
+  return name == "k" || name == "k23" ? 1e4 : name == "Fw" ? 1e3 : 0.0;
+}
+
 } // namespace
 
 double MapAxis::value(double place) const {
@@ -64,12 +78,15 @@ MapAxis axis_from_text(const std::string &option, const std::string &text, int m
   }
   MapAxis axis;
   axis.name = parts[0];
-  if (parts.size() < 4 || parts.size() > 5 || (parts.size() == 5 && parts[4] != "log"))
-    fail("NAME:FROM:TO:COUNT or NAME:FROM:TO:COUNT:log, e.g. k:1e6:200e6:100:log");
+  if (parts.size() > 4 && parts.back() == "log") {
+    axis.log = true;
+    parts.pop_back();
+  }
+  if (parts.size() < 4 || parts.size() > 5)
+    fail("NAME:FROM:TO:COUNT, with :UNIT or :log behind it or both, e.g. k:1:200:100:MN/m:log");
   if (number_named(axis.name) == nullptr && axis.name != "frequency" && axis.name != "me_re" &&
       axis.name != ratio_name)
     fail("a NAME of k, D, omega, frequency, Fw, me_re, m2, m3, k23, c23, and with --contacts ratio");
-  axis.log = parts.size() == 5;
   double count = 0.0;
   try {
     axis.from = number_from_text(parts[1]);
@@ -79,8 +96,18 @@ MapAxis axis_from_text(const std::string &option, const std::string &text, int m
     fail("numbers for FROM, TO and COUNT");
   }
   const Range &range = range_of(axis.name);
+  const std::string unit = range.unit;
+  if (parts.size() == 5) {
+    const std::optional<double> factor = factor_of(parts[4], unit);
+    if (!factor) fail(unit.empty() ? "no unit" : fmt::format("the unit {0}, k{0} or M{0}", unit));
+    axis.from *= *factor;
+    axis.to *= *factor;
+  }
   if (!range.holds(axis.from) || !range.holds(axis.to))
     fail(fmt::format("FROM and TO for {}: {}", axis.name, range.words()));
+  if (parts.size() == 4 && axis.to < least_without_unit(axis.name))
+    fail(fmt::format("{} in {}, {:g} or more, or with its unit: {}:M{}", axis.name, unit,
+                     least_without_unit(axis.name), text, unit));
   if (!(axis.from < axis.to)) fail("FROM smaller than TO");
   if (axis.log && axis.from <= 0.0) fail("FROM above 0 with log");
   if (!(count >= 2 && count <= most_values && count == std::floor(count)))

@@ -34,7 +34,8 @@ struct MapAxis {
   std::string label() const;        ///< "k [N/m]"
 };
 
-/// "NAME:FROM:TO:COUNT" or "NAME:FROM:TO:COUNT:log"; std::invalid_argument as support/range.h words it.
+/// "NAME:FROM:TO:COUNT", behind it ":UNIT" of FROM and TO if not SI, ":log" or both; std::invalid_argument as
+/// support/range.h words it.
 MapAxis axis_from_text(const std::string &option, const std::string &text, int most_values);
 
 /// The chain that others of a map differ from.

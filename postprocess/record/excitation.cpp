@@ -368,8 +368,6 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
     };
     flights.erase(std::remove_if(flights.begin(), flights.end(), too_long), flights.end());
     constexpr double rarest = 0.3; // flights in a cycle
-      fprintf(stderr, "round %d flights %zu of cycles %g width %g Fw %g noise %g ratio %g\n", round,
-              flights.size(), record.cycles(), width, forces.Fw, noise, std::hypot(exciter.a, exciter.b));
     if (static_cast<double>(flights.size()) < std::max(6.0, rarest * record.cycles())) return std::nullopt;
     for (Flight &flight : flights) { // a contact may have begun or ended between two samples
       ++flight.first;
@@ -391,9 +389,6 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
     lands += force[next->first] > 0.0 ? 1 : 0;
   }
   constexpr double most_often = 1.1, most_of_them = 0.9, most_share = 0.93, most_off = 0.6;
-    fprintf(stderr, "flat %d share %g ratio %g flights %zu/%g lands %zu/%zu\n",
-            are_flat(flights, force, weight, exciter.omega * record.interval), fit.share, fit.ratio.mean,
-            flights.size(), record.cycles(), lands, followed);
   if (!are_flat(flights, force, weight, exciter.omega * record.interval) || fit.share > most_share ||
       std::fabs(fit.ratio.mean - 1.0) > most_off ||
       static_cast<double>(flights.size()) > most_often * record.cycles() + 1.0 ||

@@ -231,6 +231,39 @@ double factor_of(const MeasuredTable &table, std::size_t place, const std::strin
   }
 }
 
+/// What the columns of a file may be whose names say nothing: the time rises from row to row; of the
+/// accelerations that of the drum varies the most, then that of the frame.
+std::map<std::string, ColumnSource> guessed_columns(const MeasuredTable &table) {
+  std::map<std::string, ColumnSource> guess;
+  std::vector<std::pair<double, std::string>> signals; // how much they vary
+  const bool has_time = table.find("time").has_value();
+  for (std::size_t i = 0; i < table.columns().size(); ++i) {
+    const MeasuredColumn &column = table.columns()[i];
+    if (!table.is_numeric(i) || table.find("time") == i) continue;
+    const std::string name = table.find(column.header) == i ? column.header : fmt::format("{}", i + 1);
+    const bool clock = table.has_clock_times(i);
+    const std::vector<double> values = clock ? std::vector<double>() : table.numbers(i);
+    if (clock || std::is_sorted(values.begin(), values.end())) {
+      if (!has_time) guess.emplace("time", ColumnSource{name});
+      continue;
+    }
+    const std::optional<Unit> unit = unit_from_text(column.unit);
+    if (!column.unit.empty() && (!unit || unit->quantity != UnitKind::acceleration)) continue;
+    std::vector<double> all;
+    std::copy_if(values.begin(), values.end(), std::back_inserter(all),
+                 [](double value) { return !std::isnan(value); });
+    const double middle = mean(all);
+    for (double &value : all)
+      value -= middle;
+    signals.emplace_back((unit ? unit->factor : 1.0) * rms(all), name);
+  }
+  std::sort(signals.rbegin(), signals.rend());
+  constexpr std::array<const char *, 2> names = {"a_drum", "a_frame"};
+  for (std::size_t i = 0; i < std::min(names.size(), signals.size()); ++i)
+    guess.emplace(names[i], ColumnSource{signals[i].second});
+  return guess;
+}
+
 /// The columns of a file that are read, `time` first if it has one.
 std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptions &options,
                                    Reading &reading) {
@@ -280,15 +313,27 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
       for (const auto &[name, into] : {of_run[i], of_run[i + 1]})
         taken.push_back({into, *table.find(name), 1.0});
   if (of_motion == of_time) {
-    std::vector<std::string> names;
+    std::vector<std::string> names, words;
     names.reserve(table.columns().size());
     for (const MeasuredColumn &column : table.columns())
       names.push_back(fmt::format("{} '{}'", names.size() + 1, shown(column.header)));
-    csv_fault(
-        table.file(), 0, {},
-        fmt::format("has no column of motion or force among {}; allowed: columns named {}, or others by "
-                    "--column NAME=HEADER:UNIT",
-                    fmt::join(names, ", "), signal_names()));
+    const std::map<std::string, ColumnSource> guess =
+        any_signal_named ? std::map<std::string, ColumnSource>() : guessed_columns(table);
+    for (const auto &[name, source] : guess)
+      words.push_back(fmt::format("--column '{}={}'", name, source.header));
+    const bool guessed = guess.count("a_drum") > 0;
+    if (guessed && options.guess) {
+      RecordOptions with = options;
+      with.columns.insert(guess.begin(), guess.end());
+      reading.record.notes.push_back(fmt::format(
+          "No column has a name that is known. If what is shown is right, type: {}", fmt::join(words, " ")));
+      return columns_to_take(table, with, reading);
+    }
+    csv_fault(table.file(), 0, {},
+              fmt::format("has no column of motion or force among {}; allowed: columns named {}, or others "
+                          "by --column NAME=HEADER:UNIT{}",
+                          fmt::join(names, ", "), signal_names(),
+                          guessed ? fmt::format(", perhaps {}", fmt::join(words, " ")) : std::string()));
   }
   if (of_time == 0 && !options.sampling_rate) table.missing("time");
   if (first_file) {

@@ -139,6 +139,8 @@ struct RecordOptions {
   /// By `time` or the name of the signal. Others are looked for by their own names in SI; if any signal is
   /// named here, only those named here are read, and `time`.
   std::map<std::string, ColumnSource> columns;
+  /// Columns without a known name are taken for what they may be; the notes say so.
+  bool guess = false;
   TableFormat format;                   ///< of a measured file; what is not given is found
   std::optional<std::size_t> piece;     ///< counted from 1; not given: the longest, near omega if one is
   std::optional<double> sampling_rate;  ///< [Hz]; needed without a column `time`, or if its digits are few

@@ -6,6 +6,7 @@
 #include "support/text.h"
 #include "support/units.h"
 
+#include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -585,15 +586,17 @@ void MeasuredTable::find_header(const std::vector<std::string_view> &lines, std:
 }
 
 std::optional<std::size_t> MeasuredTable::find(std::string_view header) const {
-  for (const auto part : {&MeasuredColumn::header, &MeasuredColumn::name}) {
-    std::optional<std::size_t> place;
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (columns_[i].*part != header) continue;
-      if (place) return std::nullopt;
-      place = i;
+  for (const bool with_case : {true, false})
+    for (const auto part : {&MeasuredColumn::header, &MeasuredColumn::name}) {
+      std::optional<std::size_t> place;
+      for (std::size_t i = 0; i < columns_.size(); ++i) {
+        const std::string &own = columns_[i].*part;
+        if (with_case ? own != header : !boost::iequals(own, header)) continue;
+        if (place) return std::nullopt;
+        place = i;
+      }
+      if (place) return place;
     }
-    if (place) return place;
-  }
   const std::optional<long> number = whole_number_from_text(header);
   if (number && *number >= 1 && static_cast<std::size_t>(*number) <= columns_.size())
     return static_cast<std::size_t>(*number - 1);
@@ -625,7 +628,7 @@ std::string MeasuredTable::cell(std::size_t row, std::size_t column) const {
   return cells_of(rows_.at(row)).at(column);
 }
 
-std::vector<double> MeasuredTable::numbers(std::size_t column) const {
+std::vector<double> MeasuredTable::numbers(std::size_t column, std::string_view zero) const {
   std::vector<double> values;
   values.reserve(rows_.size());
   bool clear = decimal_given_, whole = false; // numbers that tell what their signs are, and that have none
@@ -634,6 +637,7 @@ std::vector<double> MeasuredTable::numbers(std::size_t column) const {
     std::size_t place = 0;
     for_each_cell(rows_[row], separator_, [&](std::string_view cell) {
       if (place++ != column) return;
+      if (!zero.empty() && boost::iequals(trimmed(cell), zero)) return values.push_back(0.0);
       const std::optional<Number> number = number_in(cell, decimal_);
       const bool blank = is_blank(cell);
       if (!blank && !(number && std::isfinite(number->value)))

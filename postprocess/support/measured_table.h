@@ -55,9 +55,9 @@ public:
   /// Line of the file where a row stands, counted from 1.
   std::size_t line(std::size_t row) const { return lines_.at(row); }
 
-  /// The column whose header or, failing that, whose name this is; failing both, the column of this number,
-  /// counted from 1, or that has this text in another row of the header. Nothing if there is none, or if two
-  /// columns have this name.
+  /// The column whose header or, failing that, whose name this is, in any case if no other has it; failing
+  /// both, the column of this number, counted from 1, or that has this text in another row of the header.
+  /// Nothing if there is none, or if two columns have this name.
   std::optional<std::size_t> find(std::string_view header) const;
   /// Throws the fault that no column has this name; the message lists those that there are.
   [[noreturn]] void missing(std::string_view header) const;
@@ -66,7 +66,10 @@ public:
   std::string cell(std::size_t row, std::size_t column) const;
   /// The finite numbers of a column; NaN for blank cells and for the words of a missing value (NaN, NA, -).
   /// Refused are numbers whose only signs may be decimal signs as well as between thousands.
-  std::vector<double> numbers(std::size_t column) const;
+  /// \param zero a word that stands for 0, in any case
+  std::vector<double> numbers(std::size_t column, std::string_view zero = {}) const;
+  /// Whether the column has numbers or clock times, and no other text.
+  bool is_numeric(std::size_t column) const { return column < numeric_.size() && numeric_[column]; }
   /// Whether the column has clock times, such as 14:03:07.25, with or without a date.
   bool has_clock_times(std::size_t column) const;
   /// Clock times in seconds from the midnight before the first row of all files that share `days`; over

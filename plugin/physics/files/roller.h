@@ -181,6 +181,30 @@ inline std::optional<double> decimal(const std::string &text) {
   return value;
 }
 
+/// Whether a text has three digits and nothing else.
+inline bool is_group(const std::string &text) {
+  return text.size() == 3 && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// A number without its comma, which is the decimal sign; before three digits it may stand between thousands,
+/// too: then the one counts that rollers have. Nothing if rollers may have both or have neither.
+inline std::optional<std::string> without_comma(const std::string &number, const Quantity &known,
+                                                double factor) {
+  const std::size_t comma = number.find(',');
+  if (number.find_first_of(".,", comma + 1) != std::string::npos || number.find('.') < comma)
+    return std::nullopt;
+  std::string point = number, whole = number;
+  point[comma] = '.';
+  whole.erase(comma, 1);
+  if (!is_group(number.substr(comma + 1))) return point;
+  const auto usual = [&](const std::string &text) {
+    const double size = std::fabs(decimal(text).value_or(0.0)) * factor;
+    return size != 0.0 && size >= known.usual_from && size <= known.usual_to;
+  };
+  if (usual(point) == usual(whole)) return std::nullopt;
+  return usual(whole) ? whole : point;
+}
+
 /// Half a unit of the last digit of a decimal number.
 inline double rounding_of(const std::string &number) {
   const std::size_t exponent = std::min(number.find_first_of("eE"), number.size());
@@ -223,8 +247,14 @@ inline void Lines::add(const std::string &text, const std::string &where) {
   std::string name, number, unit;
   if (!(words >> name)) return;
   words >> number;
+  std::string written = number;
   for (std::string word; words >> word;)
-    unit += (unit.empty() ? "" : " ") + word;
+    if (unit.empty() && is_group(word) && decimal(number)) { // thousands apart: 12 540
+      number += word;
+      written += " " + word;
+    } else {
+      unit += (unit.empty() ? "" : " ") + word;
+    }
   if (name == "setting") {
     if (number.empty() || !unit.empty())
       fail("setting in " + where, (number + " " + unit), "one word, the name of the setting");
@@ -239,10 +269,17 @@ inline void Lines::add(const std::string &text, const std::string &where) {
   const auto known =
       std::find_if(list.begin(), list.end(), [&](const Quantity &one) { return one.name == name; });
   if (known == list.end()) fail("name in " + where, name, "setting, " + names_of(list));
-  const std::optional<double> value = decimal(number);
   const auto unit_of = std::find_if(known->units.begin(), known->units.end(),
                                     [&](const Unit &one) { return one.name == unit; });
-  const std::string both = number + (unit.empty() ? "" : " ") + unit;
+  const std::string both = written + (unit.empty() ? "" : " ") + unit;
+  if (number.find(',') != std::string::npos && unit_of != known->units.end()) {
+    const std::optional<std::string> read = without_comma(number, *known, unit_of->factor);
+    if (!read) fail(name + " in " + where, both, "a number whose comma is clear, or none");
+    number = *read;
+    warnings.push_back(name + " in " + where + " of '" + file + "' is '" + both + "', read as " + number +
+                       (unit.empty() ? "" : " ") + unit);
+  }
+  const std::optional<double> value = decimal(number);
   if (!value || unit_of == known->units.end())
     fail(name + " in " + where, both, "a number and its unit, " + names_of(known->units));
   const double in_si = *value * unit_of->factor;

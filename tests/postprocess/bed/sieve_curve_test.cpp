@@ -48,6 +48,7 @@ TEST(SieveCurve, IsReadAsLaboratoriesWriteIt) {
        {"size (mm),passing (%)\n4,12.5\n8,50\n16,100\n", "Probe 3\n\nsize;passing\n16;100\n8;50\n4;12,5\n",
         "size [m]\tretained [%]\n0.016\t0\n0.008\t50\n0.004\t37.5\n",
         "size (mm);retained (g)\n16;0\n8;1000\n4;750\n0;250\n",
+        "size (mm);retained (g)\n16;0\n8;1000\n4;750\nPan;250\n",
         "size (mm);retained (g)\n0;250,0\n4;750,0\n8;1000,0\n16;0,0\n",
         "Size;Retained\n16;0\n8;1000\n4;750\n0;250\n", "size,retained\n16,0\n8,50\n4,37.5\n0,12.5\n",
         "Sieve size (mm),% passing\n16,100\n8,50\n4,12.5\n",
@@ -64,6 +65,21 @@ TEST(SieveCurve, IsReadAsLaboratoriesWriteIt) {
       EXPECT_NEAR(sieve.size, size, 1e-15) << text;
       EXPECT_NEAR(sieve.passing, passing, 1e-14) << text;
     }
+  }
+  std::filesystem::remove(file);
+}
+
+TEST(SieveCurve, RefusesAPanThatLooksLikeAHeader) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("drumlin-sieves-" + std::to_string(::getpid()) + ".csv");
+  post::write_files({{file, "size,retained\npan,250\n4,750\n8,1000\n16,0\n"}});
+  try {
+    post::read_sieve_file(file);
+    ADD_FAILURE();
+  } catch (const std::runtime_error &error) {
+    EXPECT_NE(std::string(error.what()).find("the first row is 'pan'; allowed: in the last row"),
+              std::string::npos)
+        << error.what();
   }
   std::filesystem::remove(file);
 }

@@ -429,6 +429,23 @@ TEST_F(MeterCommand, ShowsWhatItUnderstands) {
   EXPECT_EQ(meter({"gap.csv", "--show", "--column", "time=1:ms", "--column", "a_drum=2:-g"}).status, 0);
 }
 
+TEST_F(MeterCommand, ShowsAGuessWhereNoNameIsKnown) {
+  std::string text = "Date;Time;Note;Ch1 [g];Ch2 [m/s2];Temp [C]\n";
+  for (int i = 0; i < 2000; ++i) {
+    const double t = 1e-3 * i, w = 2.0 * M_PI * 30.0;
+    text += fmt::format("28.11.2026;10:00:{:06.3f};ok;{:.4f};{:.4f};{:.1f}\n", t, 0.1 * std::sin(w * t),
+                        20.0 * std::sin(w * t + 1.0), 20.0 + std::sin(t));
+  }
+  write_files({{folder_ / "unknown.csv", text}});
+  const std::string line = "--column 'a_drum=Ch2 [m/s2]' --column 'a_frame=Ch1 [g]'";
+  const Outcome shown = well(meter({"unknown.csv", "--show"}));
+  EXPECT_TRUE(printed(shown, "type: " + line));
+  EXPECT_TRUE(printed(shown, "time is column 2 'Time' with clock times"));
+  const Outcome refused = meter({"unknown.csv"});
+  EXPECT_NE(refused.status, 0);
+  EXPECT_TRUE(printed(refused, "others by --column NAME=HEADER:UNIT, perhaps " + line));
+}
+
 TEST_F(MeterCommand, RecordsThatAreRefused) {
   write_measured("gap.csv", 1000, 500);
   write_measured("short.csv", 120);

@@ -295,6 +295,16 @@ TEST_F(MapCommand, AnotherMapDoesNotReplaceOne) {
   well(map(other));
 }
 
+TEST(MapAxis, MayHaveAUnit) {
+  const MapAxis plain = axis_from_text("--x", "k:10e6:150e6:40:log", 100),
+                mega = axis_from_text("--x", "k:10:150:40:MN/m:log", 100);
+  EXPECT_EQ(mega.from, plain.from);
+  EXPECT_EQ(mega.to, plain.to);
+  EXPECT_TRUE(mega.log);
+  EXPECT_EQ(axis_from_text("--x", "m2:2:4:3:t", 100).to, 4000.0);
+  EXPECT_EQ(axis_from_text("--x", "Fw:0:256:3:kN", 100).to, 256e3);
+}
+
 TEST_F(MapCommand, ASweepIsWritten) {
   well(map({"--sweep", "k:8e6:25e6:9", "--D", "0.1", "--out", "s"}));
   EXPECT_EQ(read_table(folder() / "s/sweep.csv").rows(), 2U * 9U * 32U);
@@ -307,6 +317,10 @@ TEST_F(MapCommand, BadInputEndsInOneLine) {
       {{"--x", "q:1:2:3"}, "--x is 'q:1:2:3'; allowed: a NAME of k, D"},
       {{"--x", "k:1:nan:3"}, "--x is 'k:1:nan:3'; allowed: numbers"},
       {{"--x", "k:-1:2:3"}, "--x is 'k:-1:2:3'; allowed: FROM and TO for k: "},
+      {{"--x", "k:10:150:40"},
+       "--x is 'k:10:150:40'; allowed: k in N/m, 10000 or more, or with its unit: k:10:150:40:MN/m"},
+      {{"--x", "k:10:150:40:mm"}, "--x is 'k:10:150:40:mm'; allowed: the unit N/m, kN/m or MN/m"},
+      {{"--x", "D:0:1:4:-:log"}, "--x is 'D:0:1:4:-:log'; allowed: no unit"},
       {{"--x", "k:2e6:1e6:3"}, "--x is 'k:2e6:1e6:3'; allowed: FROM smaller than TO"},
       {{"--x", "k:1e6:2e6:2.5"}, "allowed: a whole number for COUNT from 2 to 2000"},
       {{"--y", "D:0:1:5:log"}, "--y is 'D:0:1:5:log'; allowed: FROM above 0 with log"},

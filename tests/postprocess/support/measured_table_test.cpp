@@ -216,6 +216,15 @@ TEST_F(MeasuredTables, HaveHeadersOfSeveralRows) {
   EXPECT_EQ(nameless.columns()[1].unit, "g");
 }
 
+TEST_F(MeasuredTables, FindNamesInAnyCaseUnlessTwoDifferInIt) {
+  const MeasuredTable table(put("TIME;a_Drum [g]\n1;2\n2;3\n"));
+  EXPECT_EQ(table.find("time"), 0U);
+  EXPECT_EQ(table.find("a_drum"), 1U);
+  const MeasuredTable two(put("a;A;B;b\n1;2;3;4\n2;3;4;5\n"));
+  EXPECT_EQ(two.find("A"), 1U);
+  EXPECT_EQ(MeasuredTable(put("Time;TIME\n1;2\n2;3\n")).find("time"), std::nullopt);
+}
+
 TEST_F(MeasuredTables, ReadNumbersAsOfficeProgramsWriteThem) {
   const std::vector<double> numbers = {1.25, 1234.5, -1234567.0, 0.125, 999.0};
   for (const char *text : {"t,a\n1,\"1,25\"\n2,\"1234,5\"\n3,\"-1234567,0\"\n4,\"0,125\"\n5,\"999,0\"\n",
