@@ -145,6 +145,7 @@ Laws machine_parts(const MachineTolerances &tolerances, const RecordArguments &a
     if (tolerance == 0.0) return;
     const double step = std::min(tolerance, most_step); // the effect is linear in smaller ones
     RecordArguments changed = arguments;
+    changed.roller.is_first = false;
     if (record.frame_computed) { // a given frame mass must not change the bond of a roller
       changed.k23 = fmt::format("{:.17g}", record.bond->stiffness);
       changed.c23 = fmt::format("{:.17g}", record.bond->damping);

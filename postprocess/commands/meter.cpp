@@ -79,7 +79,9 @@ Task judge(const Arguments &arguments) {
   MeterOptions &options = task.options;
   options.rmv_constant = number_option("--rmv-constant", arguments.rmv_constant, Range{1.0, 1e4});
   options.same = number_option("--same", arguments.same, Range{1e-9, 1.0});
-  if (const auto drum = judged(arguments.drum, judged(arguments.record.roller, false))) {
+  RollerArguments roller = arguments.record.roller;
+  roller.is_first = false; // of two readings
+  if (const auto drum = judged(arguments.drum, judged(roller))) {
     options.drum_radius = drum->radius;
     options.drum_width = drum->length;
     options.poisson = drum->poisson;

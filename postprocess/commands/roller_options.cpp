@@ -72,7 +72,7 @@ void add_roller_options(CLI::App &command, RollerArguments &arguments, const cha
       ->group(group);
 }
 
-std::optional<GivenRoller> judged(const RollerArguments &arguments, bool warn) {
+std::optional<GivenRoller> judged(const RollerArguments &arguments) {
   if (!arguments.file) {
     if (arguments.setting) throw UsageError(refusal("--setting", *arguments.setting, "only with --roller"));
     return std::nullopt;
@@ -81,7 +81,7 @@ std::optional<GivenRoller> judged(const RollerArguments &arguments, bool warn) {
     const std::string file = path_option("--roller", *arguments.file).string();
     GivenRoller given = {file, read_roller(file), {}};
     given.setting = setting_of(given.machine, arguments.setting.value_or(""), file);
-    if (warn)
+    if (arguments.is_first)
       for (const std::string &warning : given.machine.warnings)
         fmt::print(stderr, "WARNING: {}\n", warning);
     return given;

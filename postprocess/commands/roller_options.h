@@ -20,6 +20,7 @@ namespace drumlin::post {
 /// The options as given.
 struct RollerArguments {
   std::optional<std::string> file, setting;
+  bool is_first = true; ///< of several readings of the file: warnings of it are told
 };
 
 /// A roller at one of its settings.
@@ -37,9 +38,9 @@ struct GivenRoller {
 /// Adds --roller and --setting; `arguments` must outlive the app. \param group of the help
 void add_roller_options(CLI::App &command, RollerArguments &arguments, const char *group);
 
-/// The roller, if one is given; UsageError if its file cannot be read or has no such setting. \param warn
-/// whether numbers that rollers do not have are told on standard error
-std::optional<GivenRoller> judged(const RollerArguments &arguments, bool warn = true);
+/// The roller, if one is given; UsageError if its file cannot be read or has no such setting.
+/// Numbers that rollers do not have are told on standard error.
+std::optional<GivenRoller> judged(const RollerArguments &arguments);
 
 /// The file that is read, if there is one, for keep_apart().
 std::vector<GivenPath> files_of(const RollerArguments &arguments);
