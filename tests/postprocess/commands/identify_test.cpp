@@ -427,28 +427,9 @@ TEST_F(IdentifyCommand, NeedsNoSensorOnTheFrame) {
   expect_refused(words, "--bond-tolerance is '101'; allowed: ");
 }
 
-TEST_F(IdentifyCommand, RefusesBadInputInOneLine) {
+TEST_F(IdentifyCommand, RefusesDamagedRecordsInOneLine) {
   write_run(scratch_ / "run");
-  expect_refused({"run", "--bond-tolerance", "10"}, "--bond-tolerance is '10'; allowed: only for a measured");
-  expect_refused({"run", "--logger-low-pass", "200,4"}, "--logger-low-pass is '200,4'; allowed: only for a");
-  for (const char *filter : {"200", "200,0", "200,9", "200,2.5", "-1,4", "0,4", "x,4", "200,", "nan,4", ","})
-    expect_refused({"run", "--logger-low-pass", filter},
-                   std::string("--logger-low-pass is '") + filter + "'; allowed: HZ,ORDER as 200,4");
-  expect_refused({"run", "--k23", "0"}, "--k23 is '0'; allowed: ");
-  expect_refused({"run", "--c23", "-1"}, "--c23 is '-1'; allowed: ");
-  expect_refused({}, "RECORD");
   expect_refused({"nowhere"}, "nowhere");
-  expect_refused({"run", "--window", "3"}, "--window is '3'; allowed: ");
-  expect_refused({"run", "--window", "ten"}, "--window is 'ten'; allowed: ");
-  expect_refused({"run", "--phase-within", "-1"}, "--phase-within is '-1'; allowed: ");
-  expect_refused({"run", "--phase-within", "90"}, "--phase-within is '90'; allowed: ");
-  expect_refused({"run", "--low-pass", "200"}, "--low-pass is '200'; allowed: no filter");
-  expect_refused({"run", "--least-force", "95"}, "--least-force is '95'; allowed: ");
-  expect_refused({"run", "--origin", "here"}, "--origin is 'here'; allowed: ");
-  expect_refused({"run", "--out", "run"}, "--out is 'run'; allowed: ");
-  expect_refused({"run", "--out", "/dev"}, "--out is '/dev'");
-  expect_refused({"run", "--m2", "0"}, "--m2 is '0'; allowed: ");
-
   const std::string chain = read_text(scratch_ / "run/chain.csv");
   const std::size_t end = chain.find('\n');
   const std::string parameters = read_text(scratch_ / "run/parameters.csv");

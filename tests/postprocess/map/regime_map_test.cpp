@@ -301,33 +301,4 @@ TEST_F(MapCommand, ASweepIsWritten) {
   EXPECT_TRUE(fs::is_regular_file(folder() / "s/sweep.png"));
 }
 
-TEST_F(MapCommand, BadInputEndsInOneLine) {
-  const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
-      {{"--x", "k"}, "--x is 'k'; allowed: NAME:FROM:TO:COUNT"},
-      {{"--x", "q:1:2:3"}, "--x is 'q:1:2:3'; allowed: a NAME of k, D"},
-      {{"--x", "k:1:nan:3"}, "--x is 'k:1:nan:3'; allowed: numbers"},
-      {{"--x", "k:-1:2:3"}, "--x is 'k:-1:2:3'; allowed: FROM and TO for k: "},
-      {{"--x", "k:2e6:1e6:3"}, "--x is 'k:2e6:1e6:3'; allowed: FROM smaller than TO"},
-      {{"--x", "k:1e6:2e6:2.5"}, "allowed: a whole number for COUNT from 2 to 2000"},
-      {{"--y", "D:0:1:5:log"}, "--y is 'D:0:1:5:log'; allowed: FROM above 0 with log"},
-      {{"--x", "D:0:1:5", "--y", "D:0:2:5"}, "--y is 'D:0:2:5'; allowed: another NAME"},
-      {{"--x", "Fw:1e3:2e3:5", "--me-re", "3"}, "--x is 'Fw'; allowed: not together with me_re"},
-      {{"--Fw", "3", "--me-re", "3"}, "--Fw is '3'; allowed: not together with me_re"},
-      {{"--me-re", "x"}, "--me-re is 'x'; allowed: "},
-      {{"--cycles", "10"}, "--cycles is '10'; allowed: a whole number from 100 to 100000"},
-      {{"--threads", "0"}, "--threads is '0'; allowed: "},
-      {{"--sweep", "k:1e6:2e6:5", "--x", "k:1e6:2e6:5"}, "--sweep is 'k:1e6:2e6:5'; allowed: without --x"},
-      {{"--x", "k:1e6:1e15:5"}, "--omega is '"},
-      {{"--k23", "0"}, "--k23 is '0'; allowed: "},
-      {{"--out", "/dev/null"}, "--out is '/dev/null'"},
-  };
-  for (const auto &[words, message] : bad) {
-    const Outcome outcome = map(words);
-    EXPECT_EQ(outcome.status, 2) << message << outcome.output;
-    drumlin::test::expect_one_error(outcome.output, "drumlin map: ");
-    EXPECT_TRUE(printed(outcome, message));
-  }
-  EXPECT_FALSE(fs::exists(folder() / "results"));
-}
-
 } // namespace
