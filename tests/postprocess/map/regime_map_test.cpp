@@ -273,15 +273,6 @@ TEST_F(MapCommand, FillsGapsAndRefusesRowsOfNoMap) {
   }
 }
 
-TEST_F(MapCommand, TakesOneCallAtATime) {
-  well(map(few()));
-  const FolderLock other(folder() / "m");
-  const Outcome refused = map(few());
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(
-      printed(refused, "ERROR: drumlin map: --out is 'm', into which another call writes; allowed: "));
-}
-
 TEST_F(MapCommand, AnotherMapDoesNotReplaceOne) {
   well(map(few()));
   const std::string whole = read_text(folder() / "m/regimes.csv");
