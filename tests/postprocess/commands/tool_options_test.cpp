@@ -95,7 +95,7 @@ TEST_F(ToolOptions, FoldersWhoseFilesAreOneAreRefused) {
     std::ofstream(out / "a.csv") << "kept\n";
     fs::create_hard_link(out / "a.csv", out / "b.csv");
     std::vector<std::string> words = {command};
-    if (words[0] == "study") words.emplace_back("stability");
+    if (words[0] == "study") words.emplace_back("meter");
     if (words[0] == "calibrate") words.insert(words.end(), {"--target", "k=2e7", "--vary", "k=1e8:1e9"});
     words.insert(words.end(), {"--out", command});
     const post::Outcome outcome = run(words);
