@@ -70,12 +70,12 @@ TEST_F(IdentifyCommand, TellsTheSoilBelowEachHalf) {
   post::write_files(
       {{scratch_ / "soil.csv", "y (m),k (N/m),c (N s/m)\n-0.6148,24e6,6e4\n0.6148,16e6,5e4\n"}});
   const std::string axas = (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers/Axas2020").string();
-  well(run_program({DRUMLIN_TOOLS, "exact", "--roller", axas, "--contacts", "soil.csv", "--cycles", "60",
-                    "--samples-per-cycle", "50", "--out", "run"},
+  well(run_program({DRUMLIN_TOOLS, "exact", "--roller", axas, "--contacts", "soil.csv", "--cycles", "45",
+                    "--samples-per-cycle", "40", "--out", "run"},
                    {}, scratch_.path(), 100.0));
   const post::Table run = post::read_table(scratch_ / "run/chain.csv");
   std::string measured = "t,L,R,F\n";
-  for (std::size_t i = 1000; i < run.rows(); ++i) {
+  for (std::size_t i = 800; i < run.rows(); ++i) {
     std::vector<std::string> cells;
     for (const char *column : {"time", "a_left", "a_right", "a_frame"})
       cells.push_back(run.text(column)[i]);
@@ -305,9 +305,9 @@ TEST_F(IdentifyCommand, ShowsWhatTolerancesOfTheMachineDo) {
   p.Fw = 100e3;
   p.k = 1.2e7;
   p.D = 0.3;
-  const post::ChainHistory history = post::solve_closed_form(p, 80, 60).history;
+  const post::ChainHistory history = post::solve_closed_form(p, 70, 50).history;
   std::string text = "time,a_drum,a_frame\n";
-  for (std::size_t i = 40 * 60; i < history.size(); ++i)
+  for (std::size_t i = 40 * 50; i < history.size(); ++i)
     text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),
                             post::number_text(history.a_frame[i])});
   const std::string file = "drum_mass 4000 kg\nframe_mass 3500 kg\nbond_stiffness 3.1 MN/m\n"
@@ -330,7 +330,7 @@ TEST_F(IdentifyCommand, ShowsWhatTolerancesOfTheMachineDo) {
 
 TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
   const post::ChainParameters p = low_CA3500();
-  const post::ChainHistory history = post::solve_closed_form(p, 20, 200).history;
+  const post::ChainHistory history = post::solve_closed_form(p, 20, 80).history;
   std::string text = "time,a_drum,a_frame\n";
   for (std::size_t i = 0; i < history.size(); ++i)
     text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),
@@ -376,7 +376,7 @@ TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
 TEST_F(IdentifyCommand, RefusesAResultThatContradictsItself) {
   post::ChainParameters p = low_CA3500();
   p.k = 1e7;
-  const post::ChainHistory history = post::solve_closed_form(p, 30, 100).history;
+  const post::ChainHistory history = post::solve_closed_form(p, 20, 50).history;
   std::string text = "time,a_drum,a_frame\n";
   for (std::size_t i = 0; i < history.size(); ++i)
     text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),

@@ -175,7 +175,7 @@ TEST_F(ToolOptions, ADataSheetIsEnoughForAllCommands) {
     EXPECT_NEAR(found[i] / expected[i], 1.0, 1e-9);
 
   well(run({"exact", "--roller", "mine", "--frequency", "29.3", "--k", "45e6", "--D", "0.25", "--cycles",
-            "40", "--out", "run"}));
+            "40", "--samples-per-cycle", "60", "--out", "run"}));
   fs::rename(folder_ / "run/chain.csv", folder_ / "logged.csv"); // without parameters, and with other columns
   const std::vector<std::string> record = {"logged.csv",      "--column",      "time=time",
                                            "--column",        "a_drum=a_drum", "--column",
