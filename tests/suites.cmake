@@ -1,7 +1,8 @@
 # Run by CMake when a test program has been built: writes a file for ctest with one test for each suite of
 # GoogleTest, so that a program is started once for a suite and not once for a case. Cases whose name
 # matches TWO_RANKS are a test of their own, which takes both cores; suites that begin with a word of
-# TOGETHER, because they share settled beds, are one test, which begins first.
+# TOGETHER, because they share settled beds, are one test, which begins first. Cases that match NIGHT have the
+# label `night`: ./drumlin test leaves them out, .ci/nightly runs them.
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests --gtest_filter=-${LEFT_OUT} OUTPUT_VARIABLE lines
                 COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX REPLACE "[;]|#[^\n]*" "" lines "${lines}") # names of parameters
@@ -20,16 +21,26 @@ foreach(line IN LISTS lines)
     if(TWO_RANKS AND "${suite}${name}" MATCHES "${TWO_RANKS}")
       set(processors 2)
     endif()
-    list(APPEND groups "${group}|${processors}")
-    string(APPEND "cases_${group}|${processors}" ":${suite}${name}")
+    set(when day)
+    if(NIGHT AND "${suite}${name}" MATCHES "${NIGHT}")
+      set(when night)
+    endif()
+    set(group_of_case "${group}|${processors}|${when}")
+    list(APPEND groups "${group_of_case}")
+    string(APPEND "cases_${group_of_case}" ":${suite}${name}")
   endif()
 endforeach()
 list(REMOVE_DUPLICATES groups)
 set(text "")
 foreach(each IN LISTS groups)
-  string(REGEX MATCH "^(.*)[|]([12])$" _ "${each}")
+  string(REGEX MATCH "^(.*)[|]([12])[|](day|night)$" _ "${each}")
   set(test "${PREFIX}.${CMAKE_MATCH_1}")
   set(processors ${CMAKE_MATCH_2})
+  set(labels "${LABELS}")
+  if(CMAKE_MATCH_3 STREQUAL night)
+    string(APPEND test ".ByNight")
+    list(APPEND labels night)
+  endif()
   if(processors EQUAL 2)
     string(APPEND test ".OnRanks")
   endif()
@@ -39,7 +50,7 @@ foreach(each IN LISTS groups)
   endif()
   string(REGEX REPLACE "^:" "" cases "${cases_${each}}")
   string(APPEND text "add_test([==[${test}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${cases}]==])\n"
-                     "set_tests_properties([==[${test}]==] PROPERTIES TIMEOUT 1800 LABELS \"${LABELS}\""
+                     "set_tests_properties([==[${test}]==] PROPERTIES TIMEOUT 1800 LABELS \"${labels}\""
                      " PROCESSORS ${processors}${cost})\n")
 endforeach()
 file(WRITE ${FILE} "${text}")

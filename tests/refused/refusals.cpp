@@ -1,6 +1,7 @@
 #include "tests/refused/refusals.h"
 
 #include "tests/support/host_deck.h"
+#include "tests/support/lines.h"
 
 #include <fmt/format.h>
 
@@ -29,7 +30,8 @@ bool begins_with(const std::string &text, const std::string &word) { return text
 /// Reads one table, line by line.
 class Reader {
 public:
-  explicit Reader(const std::string &table) : file_(folder / table), lammps_(is_of_lammps(table)) {}
+  explicit Reader(const std::string &table)
+      : file_(folder / table), lammps_(is_of_lammps(table)), tools_(begins_with(table, "tools/")) {}
 
   std::vector<Refusal> read() {
     std::ifstream in(file_);
@@ -69,6 +71,8 @@ private:
         beginning_ = line.substr(2);
       } else if (begins_with(line, "deck ")) {
         deck_ = line.substr(5);
+      } else if (tools_ && (begins_with(line, "file ") || begins_with(line, "made "))) {
+        take_file(line);
       } else {
         add_words(line);
       }
@@ -76,7 +80,19 @@ private:
     may_begin_ = false;
   }
 
+  /// `file NAME TEXT` or `made NAME KIND`.
+  void take_file(const std::string &line) {
+    const std::size_t name = line.find(' ') + 1, text = line.find(' ', name);
+    const std::string called = line.substr(name, text - name);
+    auto &all = begins_with(line, "file ") ? files_ : made_;
+    all.erase(std::remove_if(all.begin(), all.end(), [&](const auto &old) { return old.first == called; }),
+              all.end());
+    if (text != std::string::npos)
+      all.emplace_back(called, whole(replaced(line.substr(text + 1), "\\n", "\n")));
+  }
+
   void add_words(const std::string &line) {
+    if (tools_ && !words_.empty()) fail("'" + words_ + "' has no message; allowed: WORDS | MESSAGE");
     words_ += (words_.empty() ? "" : "\n") + line;
     if (place_ == 0) place_ = line_;
   }
@@ -107,12 +123,22 @@ private:
         row.in_engine_words = true;
       else if (mark == "{bare}")
         bare = true;
+      else if (mark == "{status 1}" && tools_)
+        row.status = 1;
       else
-        fail("mark is '" + mark + "'; allowed: {two ranks}, {in the run}, {engine's words} or {bare}");
+        fail("mark is '" + mark +
+             "'; allowed: {two ranks}, {in the run}, {engine's words}, {bare}, of tools {status 1}");
       line.erase(at);
     }
     row.says = parts_of(whole(line));
-    if (begins_with(row.says[0], "ERROR: "))
+    if (tools_) {
+      if (begins_with(row.says[0], "... "))
+        row.says[0].erase(0, 4), row.says.insert(row.says.begin(), command_);
+      else
+        row.says[0].insert(0, command_);
+      row.files = files_;
+      row.made = made_;
+    } else if (begins_with(row.says[0], "ERROR: "))
       row.says[0].erase(0, 7);
     else if (!command_.empty())
       row.says.insert(row.says.begin(), command_);
@@ -125,7 +151,7 @@ private:
         row.variables.emplace_back(given.substr(0, blank),
                                    blank == std::string::npos ? "" : given.substr(blank + 1));
       }
-    } else if (lammps_ || !begins_with(words, "pair_style")) {
+    } else if (lammps_ || tools_ || !begins_with(words, "pair_style")) {
       row.lines = words;
     } else {
       split(words, bare, row);
@@ -167,7 +193,8 @@ private:
   }
 
   fs::path file_;
-  bool lammps_;
+  bool lammps_, tools_;
+  std::vector<std::pair<std::string, std::string>> files_, made_;
   std::string command_, beginning_, deck_;
   bool may_begin_ = false;   // behind a line `command`
   std::string words_, says_; // of a row that goes on
@@ -186,13 +213,68 @@ std::vector<std::string> parts_of(const std::string &says) {
   return parts;
 }
 
-std::vector<std::string> refusal_tables() {
+std::vector<std::string> refusal_tables(const std::vector<std::string> &folders) {
   std::vector<std::string> tables;
-  for (const char *of : {"engine", "decks"})
+  for (const std::string &of : folders)
     for (const auto &entry : fs::directory_iterator(folder / of))
       tables.push_back(of + ("/" + entry.path().filename().string()));
   std::sort(tables.begin(), tables.end());
   return tables;
+}
+
+std::string name_of_table(const ::testing::TestParamInfo<std::string> &info) {
+  std::string name = info.param;
+  for (char &letter : name)
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
+  return name;
+}
+
+::testing::AssertionResult says_so(const Refusal &refusal, const std::string &error) {
+  std::size_t behind = 0;
+  for (const std::string &words : refusal.says) {
+    const std::size_t found = error.find(words, behind);
+    if (found == std::string::npos)
+      return ::testing::AssertionFailure() << "no '" << words << "' at its place in\n" << error;
+    behind = found + words.size();
+  }
+  return ::testing::AssertionSuccess();
+}
+
+/// A row in one line, or in lines of at most 110 letters.
+static std::string in_lines(const std::string &words, const std::string &message) {
+  constexpr std::size_t longest = 110;
+  if (words.size() + 3 + message.size() <= longest) return words + " | " + message + "\n";
+  std::string text = words, line = "\n    |";
+  for (const std::string &word : words_of(message)) {
+    if (line.size() + word.size() > longest) {
+      text += line;
+      line = "\n   ";
+    }
+    line += " " + word;
+  }
+  return text + line + "\n";
+}
+
+void rewrite(const Refusal &refusal, const std::string &error) {
+  const std::size_t colon = refusal.place.rfind(':');
+  const fs::path file = refusal.place.substr(0, colon);
+  const int place = std::stoi(refusal.place.substr(colon + 1));
+  const std::size_t command = error.find(": ", error.find(": ") + 2); // ERROR: drumlin NAME: MESSAGE
+  const std::string message = replaced(
+      replaced(error.substr(command + 2), (fs::path(DRUMLIN_SOURCE_DIR) / "inputs").string(), "INPUTS"),
+      std::string(5000, 'x'), "LONG");
+  std::string text, line;
+  std::ifstream in(file);
+  bool in_row = false;
+  for (int number = 1; std::getline(in, line); ++number) {
+    in_row = number == place || (in_row && begins_with(line, "    "));
+    if (!in_row)
+      text += line + "\n";
+    else if (number == place)
+      text +=
+          in_lines(line.substr(0, line.find(" | ")), message + (refusal.status == 1 ? " {status 1}" : ""));
+  }
+  std::ofstream(file) << text;
 }
 
 bool is_of_lammps(const std::string &table) {

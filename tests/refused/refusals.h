@@ -1,5 +1,5 @@
-// The tables of mistakes in tests/refused: a file for each command or style in `engine`, and one for each
-// deck of inputs in `decks`.
+// The tables of mistakes in tests/refused: a file for each command or style in `engine`, one for each deck of
+// inputs in `decks`, and one for each subcommand of drumlin in `tools`.
 //
 //     # a comment
 //     command fix guard:                  what the error begins with, until the next such line
@@ -18,7 +18,18 @@
 //     {engine's words}  the engine's own check comes first; its text does not say what is allowed
 //     {bare}            the host's properties are not added to those of the row
 // A file NAME.lammps is for the host deck of LAMMPS, which has no pair style.
+//
+// A row of `tools` has the words of a command line, '' an empty one. Its error line begins with the command
+// and the message; a message that begins with "... " stands anywhere behind the command. Lines between the
+// rows:
+//     file NAME TEXT                      a file of the rows below; without TEXT: there no longer
+//     made NAME chain                     the folder of a run of the chain, also impact, bed
+// The exit status is 2; {status 1} where the command line is right, but what it names is not.
+//
+// With DRUMLIN_REWRITE=1 a row of `tools` whose error line is another gets that line.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <string>
 #include <utility>
@@ -32,16 +43,26 @@ struct Refusal {
   std::string deck;                                           ///< of inputs; empty: the host deck
   std::vector<std::pair<std::string, std::string>> variables; ///< of a deck of inputs
   std::string pair;  ///< pair style and properties of the host deck; empty: its own
-  std::string lines; ///< of the host deck
+  std::string lines; ///< of the host deck; of a tool its command line
+  std::vector<std::pair<std::string, std::string>> files; ///< of a tool: names and texts
+  std::vector<std::pair<std::string, std::string>> made;  ///< of a tool: names and kinds of folders
+  int status = 2;                                         ///< of a tool
   std::vector<std::string> says;
   bool on_two_ranks = false, in_the_run = false, in_engine_words = false, lammps = false;
 };
 
-/// The tables by their names, such as engine/fix_guard.
-std::vector<std::string> refusal_tables();
+/// The tables in folders of tests/refused by their names, such as engine/fix_guard.
+std::vector<std::string> refusal_tables(const std::vector<std::string> &folders);
+/// Such a name as the name of a test.
+std::string name_of_table(const ::testing::TestParamInfo<std::string> &info);
 bool is_of_lammps(const std::string &table);
 /// Throws std::runtime_error with file and line for a line that is none of the above.
 std::vector<Refusal> read_refusals(const std::string &table);
+
+/// Whether an error line has the parts of a refusal, in their order.
+::testing::AssertionResult says_so(const Refusal &refusal, const std::string &error);
+/// Puts the message of an error line in the place of a row's own.
+void rewrite(const Refusal &refusal, const std::string &error);
 
 /// Every parameter of every law, left out and with values out of its range.
 std::vector<Refusal> law_refusals();

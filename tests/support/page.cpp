@@ -1,10 +1,13 @@
 #include "tests/support/page.h"
 
 #include "support/files.h"
+#include "tests/support/lines.h"
 
 #include <expat.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <regex>
 
 namespace drumlin::test {
 
@@ -39,6 +42,53 @@ Parsed parse(const std::string &text) {
         fmt::format("in or after '{}': {}", out.last_element, XML_ErrorString(XML_GetErrorCode(parser)));
   XML_ParserFree(parser);
   return out;
+}
+
+std::string prose_of(const std::string &text) {
+  struct Prose {
+    int inside = 0, left_out = 0; // elements
+    std::string paragraph, all;
+  } prose;
+  static const auto is_block = [](const std::string &element) {
+    static const std::set<std::string> blocks = {"h1", "h2", "h3", "p", "li", "figcaption"};
+    return blocks.count(element) == 1;
+  };
+  static const auto is_left_out = [](const std::string &element) {
+    static const std::set<std::string> all = {"nav", "table", "svg", "pre", "style"};
+    return all.count(element) == 1;
+  };
+  XML_Parser parser = XML_ParserCreate("UTF-8");
+  XML_SetUserData(parser, &prose);
+  XML_SetStartElementHandler(parser, [](void *data, const XML_Char *name, const XML_Char **) {
+    Prose &page = *static_cast<Prose *>(data);
+    page.inside += is_block(name) ? 1 : 0;
+    page.left_out += is_left_out(name) ? 1 : 0;
+  });
+  XML_SetCharacterDataHandler(parser, [](void *data, const XML_Char *letters, int count) {
+    Prose &page = *static_cast<Prose *>(data);
+    if (page.inside > 0 && page.left_out == 0)
+      page.paragraph.append(letters, static_cast<std::size_t>(count));
+  });
+  XML_SetEndElementHandler(parser, [](void *data, const XML_Char *name) {
+    Prose &page = *static_cast<Prose *>(data);
+    page.left_out -= is_left_out(name) ? 1 : 0;
+    if (!is_block(name)) return;
+    --page.inside;
+    static const std::regex number("[0-9]+([.][0-9]+)*(e[-+]?[0-9]+)?");
+    std::string line;
+    std::size_t column = 0;
+    for (const std::string &word : words_of(std::regex_replace(page.paragraph, number, "#"))) {
+      constexpr std::size_t longest = 110;
+      const bool fits = column + 1 + word.size() <= longest;
+      column = (fits ? column + 1 : 0) + word.size();
+      line += (line.empty() ? "" : fits ? " " : "\n") + word;
+    }
+    if (!line.empty()) page.all += (page.all.empty() ? "" : "\n") + line + "\n";
+    page.paragraph.clear();
+  });
+  EXPECT_EQ(XML_Parse(parser, text.data(), static_cast<int>(text.size()), XML_TRUE), XML_STATUS_OK);
+  XML_ParserFree(parser);
+  return prose.all;
 }
 
 std::string file_of(const std::string &link) {

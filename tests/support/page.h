@@ -27,6 +27,10 @@ struct Parsed {
 
 Parsed parse(const std::string &text);
 
+/// The prose of a page: headings, paragraphs, items of lists and captions, with # for each number and lines
+/// of at most 110 letters.
+std::string prose_of(const std::string &text);
+
 /// The file that a link of a page leads to: %XX decoded, a place within the file left out.
 std::string file_of(const std::string &link);
 

@@ -59,17 +59,5 @@ TEST_P(DampingRestitution, IsThatOfAnImpactInLammps) {
   }
 }
 
-TEST(DampingRestitutionInLammps, RefusesWhatIsNone) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  for (const std::string e : {"0", "1.1", "-1", "high"}) {
-    const Scratch folder;
-    write_text(folder / "lines",
-               "pair_style gran/hooke/transition damping restitution\npair_coeff * * 1e7 " + e + "\n");
-    EXPECT_TRUE(fails_with(run_deck(std::filesystem::path(DRUMLIN_SOURCE_DIR) / "tests/support/host.lammps",
-                                    {{"lines", (folder / "lines").string()}}, folder.path(), 1),
-                           "restitution e is '" + e + "'; allowed: a finite number > 0"));
-  }
-}
-
 } // namespace
 } // namespace drumlin::test

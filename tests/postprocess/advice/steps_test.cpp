@@ -197,29 +197,6 @@ TEST_F(AdviseCommand, TakesTheErrorOfASettlementInMillimetres) {
   EXPECT_TRUE(printed(narrow, "'k / 10' keeps to 0.5 mm"));
 }
 
-TEST_F(AdviseCommand, RefusesBadInputInOneLine) {
-  const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
-      {{"--error", "0"}, "--error is '0'; allowed: a number from 1e-15 and below 1"},
-      {{"--error", "much"}, "--error is 'much'"},
-      {{"--error", "1"}, "--error is '1'"},
-      {{"--case", "V"}, "'V'"},
-      {{"--transition", "C"}, "'C'"},
-      {{"--k", "-1"}, "--k is '-1'"},
-      {{"--stepping", "third"}, "--stepping is 'third'; allowed: second, stock"},
-      {{"--measure", "colour"}, "--measure is 'colour'; allowed: velocity, force, acceleration"},
-      {{"--cycles", "0.5"}, "--cycles is '0.5'"},
-      {{"--from", "nowhere"}, "--from is 'nowhere'"},
-      {{"--error", "1e-12", "--D", "0.4", "--stepping", "stock"}, "steps per cycle"},
-      // A drum that jumps high on soil with little damping: its motion is chaotic.
-      {{"--k", "1e8", "--D", "0.02", "--Fw", "2e5"}, "no step can be advised"}};
-  for (const auto &[words, message] : bad) {
-    const Outcome outcome = run(words);
-    EXPECT_EQ(outcome.status, 2) << message;
-    test::expect_one_error(outcome.output, "drumlin advise: ");
-    EXPECT_TRUE(printed(outcome, message));
-  }
-}
-
 TEST_F(AdviseCommand, RefusesACurveFileThatItCannotRead) {
   std::filesystem::create_directories(folder_ / "mine");
   write_files({{folder_ / "mine" / "chain.csv", "case,steps\nI,50\n"}});

@@ -260,60 +260,6 @@ TEST_F(ExactCommand, WritesAWayWithASoftSide) {
   ASSERT_EQ(run("exact --way halves.csv --speed 5 --contacts 3 --out o").status, 0);
 }
 
-TEST_F(ExactCommand, RefusesAWayThatCannotBeDrivenOver) {
-  const std::string head = "s (m),k (N/m),D (-)\n";
-  const auto refuse = [&](const std::string &text, const std::string &options, const std::string &line) {
-    std::ofstream(folder_ / "w.csv") << text;
-    const Outcome outcome = run("exact --way w.csv " + options + " --out o");
-    EXPECT_EQ(outcome.status, 2) << line;
-    EXPECT_EQ(outcome.err, "ERROR: drumlin exact: " + line + "\n");
-    EXPECT_FALSE(fs::exists(folder_ / "o"));
-  };
-  const std::string good = head + "0,1e7,0.2\n2,2e7,0.2\n";
-  const std::string fast = "--speed 1";
-  refuse("place,k\n1,2\n", fast,
-         "header in line 1 of 'w.csv' is 'place,k'; allowed: s (m),k (N/m),D (-) or s "
-         "(m),k_left (N/m),k_right (N/m),D (-)");
-  refuse(head + "0,1e7,0.2\n", fast, "--way of 'w.csv' has 1 rows; allowed: two or more, of different s");
-  refuse(head + "0,1e7,0.2\n0,2e7,0.2\n", fast,
-         "--way of 'w.csv' has 2 rows; allowed: two or more, of different s");
-  refuse(head + "0,1e7,0.2\n2,1e7,0.2\n1,1e7,0.2\n", fast,
-         "s in line 4 of 'w.csv' is '1'; allowed: not below the row before");
-  refuse(head + "0,1e7,0.2\n1,1e7,0.2\n1,2e7,0.2\n1,3e7,0.2\n", fast,
-         "s in line 5 of 'w.csv' is '1'; allowed: at most two rows of one place");
-  refuse(head + "0,-1,0.2\n2,2e7,0.2\n", fast,
-         "k in line 2 of 'w.csv' is '-1'; allowed: a number from 1e-6 to 1e15 [N/m]");
-  refuse(head + "0,1e7,nan\n2,2e7,0.2\n", fast,
-         "D in line 2 of 'w.csv' is 'nan'; allowed: a number from 0 to 1e6");
-  refuse(head + "0,1e7\n2,2e7,0.2\n", fast, "D in line 2 of 'w.csv' is ''; allowed: a number from 0 to 1e6");
-  refuse(head + "0,1e7,0.2,9\n", fast,
-         "row in line 2 of 'w.csv' is '0,1e7,0.2,9'; allowed: three numbers, s (m),k (N/m),D (-)");
-  const std::string halves = "s (m),k_left (N/m),k_right (N/m),D (-)\n", two = fast + " --contacts 2";
-  refuse(
-      halves + "0,1e7,1e7,0.2\n1,1e7,2e7,0.2\n", fast,
-      "k_left in line 3 of 'w.csv' is '1e+07'; allowed: k_right, 2e+07: a drum on one contact has no sides");
-  refuse(halves + "0,1e7,0,0.2\n1,1e7,2e7,0.2\n", two,
-         "k_right in line 2 of 'w.csv' is '0'; allowed: a number from 1e-6 to 1e15 [N/m]");
-  refuse(halves + "0,1e7,0.2\n1,1e7,2e7,0.2\n", two,
-         "D in line 2 of 'w.csv' is ''; allowed: a number from 0 to 1e6");
-  refuse(halves + "0,1e7,1e7,0.2,1\n", two,
-         "row in line 2 of 'w.csv' is '0,1e7,1e7,0.2,1'; allowed: four numbers, s (m),k_left (N/m),k_right "
-         "(N/m),D (-)");
-  refuse(good, "", "--speed is missing; allowed: a number [m/s], with --way");
-  refuse(good, "--speed 0", "--speed is '0'; allowed: a number from 1e-06 to 100 [m/s]");
-  refuse(good, "--speed 1e-3",
-         "--speed is '1e-3'; allowed: one with which 1 passes over 2 m take at most 25000 cycles");
-  refuse(good, fast + " --passes 0", "--passes is '0'; allowed: a whole number from 1 to 1000");
-  refuse(good, fast + " --k 2e7", "--k is '2e7'; allowed: none with --way, which has it of each place");
-  refuse(good, fast + " --cycles 3",
-         "--cycles is '3'; allowed: none with --way: they follow from its length, --speed and --passes");
-  const Outcome outcome = run("exact --speed 1 --out o");
-  EXPECT_EQ(outcome.err, "ERROR: drumlin exact: --speed is '1'; allowed: a number with --way FILE\n");
-  EXPECT_EQ(run("exact --way none.csv --speed 1 --out o").err,
-            "ERROR: drumlin exact: --way is 'none.csv'; allowed: a file that can be read, with the columns s "
-            "(m),k (N/m),D (-)\n");
-}
-
 // The machine of the roller file on two contacts that carry 3 to 2 in unbroken contact: amplitudes of the
 // left end, the middle and the right end, tilt, and apparent stiffness of each, from complex algebra.
 TEST_F(ExactCommand, ADrumOnUnequalHalvesTilts) {
@@ -378,73 +324,6 @@ TEST_F(ExactCommand, SaysWhatIsAssumedOfADrumThatTilts) {
   EXPECT_EQ(post::read_chain(folder_ / "o/chain.csv").theta_drum.front(), 1e-3);
   EXPECT_EQ(post::read_parameters(folder_ / "o/parameters.csv").at("ends_assumed"),
             "drum_inertia frame_inertia bond_left bond_right");
-}
-
-TEST_F(ExactCommand, RefusesContactsThatTheDrumCannotHave) {
-  const std::string head = "y (m),k (N/m),c (N s/m)\n", good = head + "-0.6,1e7,0\n0.6,2e7,1e4\n";
-  const std::string roller = " --roller " + roller_file("Axas2020");
-  const std::string way = (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/chain/way").string();
-  const std::string count = "'; allowed: a whole number from 1 to 32, or a file that can be read, with the "
-                            "columns y (m),k (N/m),c (N s/m)";
-  std::ofstream(folder_ / "narrow") << "drum_mass 4 t\nframe_mass 3 t\nfrequency 30 Hz\nforce 250 kN\n";
-  std::ofstream(folder_ / "hung") << data_sheet << "bond_stiffness 1 MN/m\nbond_stiffness_left 1 MN/m\n";
-  struct Bad {
-    std::string text, options, line;
-  };
-  for (const auto &[text, options, line] : std::vector<Bad>{
-           {good, "--contacts 0", "--contacts is '0" + count},
-           {good, "--contacts 33", "--contacts is '33" + count},
-           {good, "--contacts 2.5", "--contacts is '2.5" + count},
-           {good, "--contacts nan", "--contacts is 'nan" + count},
-           {good, "--contacts ''", "--contacts is '" + count},
-           {good, "--contacts nothing", "--contacts is 'nothing" + count},
-           {good, "--contacts 2 --rtol 1e-9",
-            "--rtol is '1e-9'; allowed: none with --contacts, solved in closed form"},
-           {good, "--contacts w.csv --speed 1 --way " + way,
-            "--contacts is 'w.csv'; allowed: a whole number with --way, which has k and D"},
-           {good, "--turn-round", "--turn-round is 'given'; allowed: none without --way FILE"},
-           {good, "--turn-round --speed 1 --way " + way,
-            "--turn-round is 'given'; allowed: none without --contacts: the drum has no sides"},
-           {good, "--contacts 2 --speed 1 --D 0.1 --way " + way,
-            "--D is '0.1'; allowed: none with --way, which has it of each place"},
-           {good, "--contacts w.csv --k 1e7",
-            "--k is '1e7'; allowed: none with a file of --contacts, which has k and c of each"},
-           {good, "--tilt 0.01", "--tilt is '0.01'; allowed: a number with --contacts"},
-           {good, "--contacts 2 --tilt 1", "--tilt is '1'; allowed: a number from -0.1 to 0.1 [rad]"},
-           {good, "--contacts 2 --tilt 0.01 --impact-speed 1",
-            "--tilt is '0.01'; allowed: none with --impact-speed"},
-           {good, "--contacts 2 --roller narrow",
-            "width of 'narrow' is missing; allowed: the width of the drum, which --contacts needs"},
-           {good, "--contacts 2 --roller hung",
-            "bonds is 'almost a single one beside the middle'; allowed: stiffness on both sides of it"},
-           {good, "--contacts 2 --D 1e6",
-            "--cycles is '30'; allowed: at most 3.13 of this machine and soil, whose fastest motion needs "
-            "6.39e+06 steps per cycle"},
-           {"y,k,c\n0,1,1\n", roller, "header of 'w.csv' is 'y,k,c'; allowed: y (m),k (N/m),c (N s/m)"},
-           {head, roller, "number of rows of 'w.csv' is '0'; allowed: 1 to 32"},
-           {head + "-1.1,1e7,0\n0.6,1e7,0\n", roller,
-            "y in line 2 of 'w.csv' is '-1.1'; allowed: a number from -1.065 to 1.065 [m], within the width "
-            "of the drum"},
-           {head + "-1,1e7,0\n1,0,0\n", roller,
-            "k in line 3 of 'w.csv' is '0'; allowed: a number from 1e-06 to 1e+15 [N/m]"},
-           {head + "-1,1e7,-1\n1,1,0\n", roller,
-            "c in line 2 of 'w.csv' is '-1'; allowed: 0, or a number from 1e-09 to 1e+15 [N s/m]"},
-           {head + "-1,x,1\n1,1,0\n", roller,
-            "k in line 2 of 'w.csv' is 'x'; allowed: a number from 1e-06 to 1e+15 [N/m]"},
-           {head + "0.2,1e7,1\n1,1e7,0\n", roller,
-            "--contacts is 'at 0.2 to 1 m'; allowed: on both sides of the drum's middle, or all in it: else "
-            "it has nothing to rest on"}}) {
-    std::ofstream(folder_ / "w.csv") << text;
-    const Outcome outcome =
-        run("exact " + options + (options == roller ? " --contacts w.csv" : "") + " --out o");
-    EXPECT_EQ(outcome.status, 2) << line;
-    EXPECT_EQ(outcome.err, "ERROR: drumlin exact: " + line + "\n");
-    EXPECT_FALSE(fs::exists(folder_ / "o"));
-  }
-  fs::create_directory(folder_ / "kept");
-  std::ofstream(folder_ / "kept/chain.csv") << good; // what is read is not replaced
-  EXPECT_EQ(run("exact --contacts kept/chain.csv --cycles 1 --out kept").status, 2);
-  EXPECT_EQ(get(folder_ / "kept/chain.csv"), good);
 }
 
 TEST_F(ExactCommand, SolvesEveryCase) {
@@ -526,7 +405,7 @@ TEST_F(ExactCommand, TakesARollerKnownByItsDataSheet) {
   EXPECT_NEAR(post::number_from_text(other.at("roller_nominal_amplitude")), 7.2050619 / 4000.0, 1e-9);
 }
 
-TEST_F(ExactCommand, KeepsTheRollerFile) {
+TEST_F(ExactCommand, KeepsTheFilesThatItReads) {
   fs::create_directories(folder_ / "o");
   std::ofstream(folder_ / "o/parameters.csv") << data_sheet;
   const Outcome outcome = run("exact --roller o/parameters.csv --cycles 1 --out o");
@@ -534,99 +413,10 @@ TEST_F(ExactCommand, KeepsTheRollerFile) {
   EXPECT_EQ(outcome.err, "ERROR: drumlin exact: --out is 'o/parameters.csv'; allowed: another file than "
                          "--roller 'o/parameters.csv', which is read\n");
   EXPECT_EQ(get(folder_ / "o/parameters.csv"), data_sheet);
-}
-
-// Longer than other tests: it has a line for each mistake.
-TEST_F(ExactCommand, BadInputIsOneLineAndTouchesNothing) {
-  ASSERT_EQ(run("exact --cycles 1 --out kept").status, 0);
-  std::ofstream(folder_ / "file") << "not a folder";
-  std::ofstream(folder_ / "mine") << data_sheet;
-  std::ofstream(folder_ / "light") << "drum_mass 1e-6 t\nframe_mass 1e-7 kg\nfrequency 30 Hz\nforce 1 N\n";
-  const std::map<std::string, std::string> before = files();
-
-  struct Bad {
-    std::string arguments;
-    std::vector<std::string> said;
-  };
-  const std::vector<Bad> table = {
-      {"--case V --out kept", {"--case", "'V'", "I, II, III, IV"}},
-      {"--case '' --out kept", {"--case", "''"}},
-      {"--case CA3500-high --out kept",
-       {"--case is 'CA3500-high'; allowed: I, II, III, IV; a roller is a file: --roller ",
-        "inputs/rollers/CA3500 --setting high\n"}},
-      {"--case Axas2020 --out kept", {"--case is 'Axas2020'", "inputs/rollers/Axas2020\n"}},
-      {"--case CA9-high --out kept", {"--case is 'CA9-high'; allowed: I, II, III, IV\n"}},
-      {"--case ../rollers/CA3500-high --out kept", {"allowed: I, II, III, IV\n"}},
-      {"--roller nowhere --out kept", {"--roller is 'nowhere'; allowed: a file that can be read"}},
-      {"--roller '' --out kept", {"--roller is ''; allowed: "}},
-      {"--roller . --out kept", {"--roller is '.'; allowed: a file that can be read"}},
-      {"--roller file --out kept", {"name in line 1 of 'file' is 'not'; allowed: setting, "}},
-      {"--roller light --out kept",
-       {"--roller is 'light'; allowed: a file by which m3 is a number from 1e-06"}},
-      {"--roller mine --setting high --out kept", {"--setting is 'high'; allowed: "}},
-      {"--roller " + roller_file("CA3500") + " --out kept", {"--setting is missing; allowed: high or low"}},
-      {"--roller " + roller_file("CA3500") + " --setting middle --out kept",
-       {"--setting is 'middle'; allowed: high or low"}},
-      {"--setting high --out kept", {"--setting is 'high'; allowed: only with --roller"}},
-      {"--frequency 20 --omega 120 --out kept", {"--frequency is '20'; allowed: without --omega"}},
-      {"--frequency 0 --out kept", {"--frequency is '0'; allowed: a number from 1e-06 to 1e+08 [Hz]"}},
-      {"--frequency 20Hz --out kept", {"--frequency is '20Hz'; allowed: a number"}},
-      {"--roller mine --frequency 1e-6 --out kept",
-       {"--frequency is '1e-06'; allowed: a frequency with which m_e r_e omega^2 is 0, or a number from "
-        "1e-09"}},
-      {"--transition C --out kept", {"--transition", "'C'", "A, B"}},
-      {"--k -5 --out kept", {"--k is '-5'; allowed: a number from 1e-06 to 1e+15 [N/m]"}},
-      {"--k 0 --out kept", {"--k is '0'"}},
-      {"--D nan --out kept", {"--D is 'nan'; allowed: 0, or a number"}},
-      {"--D -0.1 --out kept", {"--D is '-0.1'"}},
-      {"--omega inf --out kept", {"--omega is 'inf'", "[rad/s]"}},
-      {"--Fw many --out kept", {"--Fw is 'many'", "[N]"}},
-      {"--m2 0 --out kept", {"--m2 is '0'", "[kg]"}},
-      {"--m3 1e999 --out kept", {"--m3", "'1e999'"}},
-      {"--k23 0 --out kept", {"--k23 is '0'", "g = 0"}},
-      {"--c23 12x --out kept", {"--c23", "'12x'"}},
-      {"--g -9.81 --out kept", {"--g is '-9.81'", "[m/s2]"}},
-      {"--cycles 0 --out kept", {"--cycles is '0'", "above 0"}},
-      {"--cycles 1e9 --out kept", {"--cycles is '1e9'", "25000"}},
-      {"--samples-per-cycle 2.5 --out kept", {"--samples-per-cycle", "'2.5'", "whole number"}},
-      {"--samples-per-cycle 0 --out kept", {"--samples-per-cycle", "'0'", "whole number from 1 to 1000000"}},
-      {"--samples-per-cycle 1000001 --out kept", {"--samples-per-cycle is '1000001'", "1 to 1000000"}},
-      {"--rtol 0 --out kept", {"--rtol", "0", "1e-14"}},
-      {"--impact-speed -1 --out kept", {"--impact-speed is '-1'", "[m/s]"}},
-      {"--k '' --out kept", {"--k is ''"}},
-      {"--k 1e18 --out kept", {"--k is '1e18'", "1e+15"}},
-      {"--k 1e-308 --out kept", {"--k is '1e-308'"}},
-      {"--D 1e18 --out kept", {"--D is '1e18'", "1e+06"}},
-      {"--omega 1e-308 --out kept", {"--omega is '1e-308'", "1e-06"}},
-      {"--omega 1e-6 --out kept", {"--cycles is '30'", "at most"}},
-      {"--cycles 20000 --samples-per-cycle 1000 --out kept", {"--cycles is '20000'", "at most 5000"}},
-      {"--impact-speed 1e308 --out kept", {"--impact-speed is '1e308'"}},
-      {"--rtol '' --out kept", {"--rtol is ''"}},
-      {"--case " + std::string(5000, 'x') + " --out kept", {"--case is 'xxx", "(5000 characters)"}},
-      {"--out " + std::string(5000, 'x'),
-       {"--out is 'xxx", "(5000 characters)", "none of its parts longer than"}},
-      {"--out ''", {"--out", "''"}},
-      {"--out file", {"--out", "'file'", "not a folder"}},
-      {"--out file/below", {"--out", "'file/below'", "not a folder"}},
-      {"--out /proc/drumlin", {"--out", "'/proc/drumlin'", "belongs to the system"}},
-      {"", {"--out", "required"}},
-      {"--out kept --colour red", {"--colour"}},
-      {"--out kept --k", {"--k"}},
-      {"--out kept stray", {"stray"}},
-  };
-  for (const Bad &bad : table) {
-    const Outcome outcome = run("exact " + bad.arguments);
-    EXPECT_EQ(outcome.status, 2) << bad.arguments;
-    EXPECT_EQ(outcome.out, "") << bad.arguments;
-    const std::vector<std::string> lines = lines_of(outcome.err);
-    // Warnings of a roller file with numbers that no roller has may stand before it.
-    for (std::size_t line = 0; line < lines.size(); ++line)
-      EXPECT_EQ(lines[line].rfind(line + 1 < lines.size() ? "WARNING: " : "ERROR: drumlin exact: ", 0), 0U)
-          << outcome.err;
-    for (const std::string &said : bad.said)
-      EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err << "  misses: " << said;
-  }
-  EXPECT_EQ(files(), before);
+  const std::string contacts = "y (m),k (N/m),c (N s/m)\n-0.6,1e7,0\n0.6,2e7,1e4\n";
+  std::ofstream(folder_ / "o/chain.csv") << contacts;
+  EXPECT_EQ(run("exact --contacts o/chain.csv --cycles 1 --out o").status, 2);
+  EXPECT_EQ(get(folder_ / "o/chain.csv"), contacts);
 }
 
 TEST_F(ExactCommand, HelpAndVersionAnswer) {

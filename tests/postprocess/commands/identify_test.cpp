@@ -70,12 +70,12 @@ TEST_F(IdentifyCommand, TellsTheSoilBelowEachHalf) {
   post::write_files(
       {{scratch_ / "soil.csv", "y (m),k (N/m),c (N s/m)\n-0.6148,24e6,6e4\n0.6148,16e6,5e4\n"}});
   const std::string axas = (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers/Axas2020").string();
-  well(run_program({DRUMLIN_TOOLS, "exact", "--roller", axas, "--contacts", "soil.csv", "--cycles", "60",
-                    "--samples-per-cycle", "50", "--out", "run"},
+  well(run_program({DRUMLIN_TOOLS, "exact", "--roller", axas, "--contacts", "soil.csv", "--cycles", "45",
+                    "--samples-per-cycle", "40", "--out", "run"},
                    {}, scratch_.path(), 100.0));
   const post::Table run = post::read_table(scratch_ / "run/chain.csv");
   std::string measured = "t,L,R,F\n";
-  for (std::size_t i = 1000; i < run.rows(); ++i) {
+  for (std::size_t i = 800; i < run.rows(); ++i) {
     std::vector<std::string> cells;
     for (const char *column : {"time", "a_left", "a_right", "a_frame"})
       cells.push_back(run.text(column)[i]);
@@ -305,9 +305,9 @@ TEST_F(IdentifyCommand, ShowsWhatTolerancesOfTheMachineDo) {
   p.Fw = 100e3;
   p.k = 1.2e7;
   p.D = 0.3;
-  const post::ChainHistory history = post::solve_closed_form(p, 80, 60).history;
+  const post::ChainHistory history = post::solve_closed_form(p, 70, 50).history;
   std::string text = "time,a_drum,a_frame\n";
-  for (std::size_t i = 40 * 60; i < history.size(); ++i)
+  for (std::size_t i = 40 * 50; i < history.size(); ++i)
     text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),
                             post::number_text(history.a_frame[i])});
   const std::string file = "drum_mass 4000 kg\nframe_mass 3500 kg\nbond_stiffness 3.1 MN/m\n"
@@ -330,7 +330,7 @@ TEST_F(IdentifyCommand, ShowsWhatTolerancesOfTheMachineDo) {
 
 TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
   const post::ChainParameters p = low_CA3500();
-  const post::ChainHistory history = post::solve_closed_form(p, 20, 200).history;
+  const post::ChainHistory history = post::solve_closed_form(p, 20, 80).history;
   std::string text = "time,a_drum,a_frame\n";
   for (std::size_t i = 0; i < history.size(); ++i)
     text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),
@@ -376,7 +376,7 @@ TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
 TEST_F(IdentifyCommand, RefusesAResultThatContradictsItself) {
   post::ChainParameters p = low_CA3500();
   p.k = 1e7;
-  const post::ChainHistory history = post::solve_closed_form(p, 30, 100).history;
+  const post::ChainHistory history = post::solve_closed_form(p, 20, 50).history;
   std::string text = "time,a_drum,a_frame\n";
   for (std::size_t i = 0; i < history.size(); ++i)
     text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),
@@ -427,28 +427,9 @@ TEST_F(IdentifyCommand, NeedsNoSensorOnTheFrame) {
   expect_refused(words, "--bond-tolerance is '101'; allowed: ");
 }
 
-TEST_F(IdentifyCommand, RefusesBadInputInOneLine) {
+TEST_F(IdentifyCommand, RefusesDamagedRecordsInOneLine) {
   write_run(scratch_ / "run");
-  expect_refused({"run", "--bond-tolerance", "10"}, "--bond-tolerance is '10'; allowed: only for a measured");
-  expect_refused({"run", "--logger-low-pass", "200,4"}, "--logger-low-pass is '200,4'; allowed: only for a");
-  for (const char *filter : {"200", "200,0", "200,9", "200,2.5", "-1,4", "0,4", "x,4", "200,", "nan,4", ","})
-    expect_refused({"run", "--logger-low-pass", filter},
-                   std::string("--logger-low-pass is '") + filter + "'; allowed: HZ,ORDER as 200,4");
-  expect_refused({"run", "--k23", "0"}, "--k23 is '0'; allowed: ");
-  expect_refused({"run", "--c23", "-1"}, "--c23 is '-1'; allowed: ");
-  expect_refused({}, "RECORD");
   expect_refused({"nowhere"}, "nowhere");
-  expect_refused({"run", "--window", "3"}, "--window is '3'; allowed: ");
-  expect_refused({"run", "--window", "ten"}, "--window is 'ten'; allowed: ");
-  expect_refused({"run", "--phase-within", "-1"}, "--phase-within is '-1'; allowed: ");
-  expect_refused({"run", "--phase-within", "90"}, "--phase-within is '90'; allowed: ");
-  expect_refused({"run", "--low-pass", "200"}, "--low-pass is '200'; allowed: no filter");
-  expect_refused({"run", "--least-force", "95"}, "--least-force is '95'; allowed: ");
-  expect_refused({"run", "--origin", "here"}, "--origin is 'here'; allowed: ");
-  expect_refused({"run", "--out", "run"}, "--out is 'run'; allowed: ");
-  expect_refused({"run", "--out", "/dev"}, "--out is '/dev'");
-  expect_refused({"run", "--m2", "0"}, "--m2 is '0'; allowed: ");
-
   const std::string chain = read_text(scratch_ / "run/chain.csv");
   const std::size_t end = chain.find('\n');
   const std::string parameters = read_text(scratch_ / "run/parameters.csv");

@@ -312,11 +312,6 @@ TEST_F(MeterCommand, RecordOfARun) {
   for (const char *name :
        {"index.html", "figures/values.png", "figures/spectrum.png", "figures/loop.png", "data/loop.csv"})
     EXPECT_TRUE(fs::exists(out / name)) << name;
-  EXPECT_EQ(meter({"run"}).status, 0); // replaces the earlier page
-  write_files({{folder_ / "mine", "x"}});
-  fs::create_directories(folder_ / "other");
-  write_files({{folder_ / "other/mine", "x"}});
-  EXPECT_TRUE(meter({"run", "--out", "other"}).says("--out is 'other'; allowed: a folder that is new"));
   const fs::path parameters = folder_ / "run/parameters.csv";
   write_files({{parameters, std::regex_replace(read_text(parameters), std::regex("\nFw,[^\n]*"), "\nFw,0")}});
   const Outcome still = meter({"run"});

@@ -161,7 +161,7 @@ TEST(TwoSided, IntervalsContainTheTruthWhereEndsLoseContact) {
   const auto between = [&random](double least, double most) {
     return std::uniform_real_distribution<double>(least, most)(random);
   };
-  const int records = number_of_records(24);
+  const int records = number_of_records(6);
   constexpr double degree = pi / 180.0;
   Coverage coverage;
   int refused = 0;
@@ -219,7 +219,7 @@ TEST(TwoSided, IntervalsContainTheTruthInUnbrokenContact) {
   const auto between = [&random](double least, double most) {
     return std::uniform_real_distribution<double>(least, most)(random);
   };
-  const int records = number_of_records(40);
+  const int records = number_of_records(8);
   constexpr double degree = pi / 180.0;
   Coverage coverage;
   int refused = 0;

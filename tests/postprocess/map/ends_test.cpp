@@ -276,24 +276,5 @@ TEST_F(EndsMapCommand, WritesModesOverStiffnessAndRatio) {
   EXPECT_TRUE(fs::is_regular_file(scratch_ / "s/sweep.png"));
 }
 
-TEST_F(EndsMapCommand, RefusesInOneLine) {
-  const std::vector<std::string> axes = {"--x", "k:10e6:60e6:4", "--y", "ratio:1:3:3", "--out", "m"};
-  for (const auto &[words, message] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{}, "--y is 'ratio'; allowed: that of the halves of a drum only with --contacts"},
-           {{"--contacts", "1"}, "--contacts is '1'; allowed: "},
-           {{"--contacts", "33"}, "--contacts is '33'; allowed: "},
-           {{"--contacts", "two"}, "--contacts is 'two'; allowed: "},
-           {{"--contacts", "2", "--drum-radius", "0.7"}, "--drum-radius is '0.7'; allowed: "},
-           {{"--contacts", "2", "--identify", "3"}, "--identify is '3'; allowed: "}}) {
-    std::vector<std::string> all = words;
-    all.insert(all.end(), axes.begin(), axes.end());
-    const Outcome outcome = map(all);
-    EXPECT_EQ(outcome.status, 2);
-    expect_one_error(outcome.output, "drumlin map: ");
-    EXPECT_TRUE(printed(outcome, message));
-    EXPECT_FALSE(fs::exists(scratch_ / "m"));
-  }
-}
-
 } // namespace
 } // namespace drumlin::test

@@ -273,15 +273,6 @@ TEST_F(MapCommand, FillsGapsAndRefusesRowsOfNoMap) {
   }
 }
 
-TEST_F(MapCommand, TakesOneCallAtATime) {
-  well(map(few()));
-  const FolderLock other(folder() / "m");
-  const Outcome refused = map(few());
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(
-      printed(refused, "ERROR: drumlin map: --out is 'm', into which another call writes; allowed: "));
-}
-
 TEST_F(MapCommand, AnotherMapDoesNotReplaceOne) {
   well(map(few()));
   const std::string whole = read_text(folder() / "m/regimes.csv");
@@ -309,39 +300,6 @@ TEST_F(MapCommand, ASweepIsWritten) {
   well(map({"--sweep", "k:8e6:25e6:9", "--D", "0.1", "--out", "s"}));
   EXPECT_EQ(read_table(folder() / "s/sweep.csv").rows(), 2U * 9U * 32U);
   EXPECT_TRUE(fs::is_regular_file(folder() / "s/sweep.png"));
-}
-
-TEST_F(MapCommand, BadInputEndsInOneLine) {
-  const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
-      {{"--x", "k"}, "--x is 'k'; allowed: NAME:FROM:TO:COUNT"},
-      {{"--x", "q:1:2:3"}, "--x is 'q:1:2:3'; allowed: a NAME of k, D"},
-      {{"--x", "k:1:nan:3"}, "--x is 'k:1:nan:3'; allowed: numbers"},
-      {{"--x", "k:-1:2:3"}, "--x is 'k:-1:2:3'; allowed: FROM and TO for k: "},
-      {{"--x", "k:10:150:40"},
-       "--x is 'k:10:150:40'; allowed: k in N/m, 10000 or more, or with its unit: k:10:150:40:MN/m"},
-      {{"--x", "k:10:150:40:mm"}, "--x is 'k:10:150:40:mm'; allowed: the unit N/m, kN/m or MN/m"},
-      {{"--x", "D:0:1:4:-:log"}, "--x is 'D:0:1:4:-:log'; allowed: no unit"},
-      {{"--x", "k:2e6:1e6:3"}, "--x is 'k:2e6:1e6:3'; allowed: FROM smaller than TO"},
-      {{"--x", "k:1e6:2e6:2.5"}, "allowed: a whole number for COUNT from 2 to 2000"},
-      {{"--y", "D:0:1:5:log"}, "--y is 'D:0:1:5:log'; allowed: FROM above 0 with log"},
-      {{"--x", "D:0:1:5", "--y", "D:0:2:5"}, "--y is 'D:0:2:5'; allowed: another NAME"},
-      {{"--x", "Fw:1e3:2e3:5", "--me-re", "3"}, "--x is 'Fw'; allowed: not together with me_re"},
-      {{"--Fw", "3", "--me-re", "3"}, "--Fw is '3'; allowed: not together with me_re"},
-      {{"--me-re", "x"}, "--me-re is 'x'; allowed: "},
-      {{"--cycles", "10"}, "--cycles is '10'; allowed: a whole number from 100 to 100000"},
-      {{"--threads", "0"}, "--threads is '0'; allowed: "},
-      {{"--sweep", "k:1e6:2e6:5", "--x", "k:1e6:2e6:5"}, "--sweep is 'k:1e6:2e6:5'; allowed: without --x"},
-      {{"--x", "k:1e6:1e15:5"}, "--omega is '"},
-      {{"--k23", "0"}, "--k23 is '0'; allowed: "},
-      {{"--out", "/dev/null"}, "--out is '/dev/null'"},
-  };
-  for (const auto &[words, message] : bad) {
-    const Outcome outcome = map(words);
-    EXPECT_EQ(outcome.status, 2) << message << outcome.output;
-    drumlin::test::expect_one_error(outcome.output, "drumlin map: ");
-    EXPECT_TRUE(printed(outcome, message));
-  }
-  EXPECT_FALSE(fs::exists(folder() / "results"));
 }
 
 } // namespace

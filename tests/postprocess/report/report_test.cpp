@@ -501,17 +501,6 @@ TEST_F(Report, ClearsAwayWhatAKilledReportLeft) {
     EXPECT_TRUE(fs::exists(kept)) << kept;
 }
 
-TEST_F(Report, IsRefusedWhereAnotherCallMakesOne) {
-  const fs::path place = root / "shared" / "report";
-  fs::create_directories(place.parent_path());
-  const TemporaryFolder running(place.parent_path(), ".report.new-");
-  const auto [status, errors] = command(quote(root / "runs" / "I-A") + " --out " + quote(place));
-  EXPECT_EQ(status, 2);
-  EXPECT_TRUE(contains(errors, "', into which another call writes; allowed: another folder"));
-  EXPECT_FALSE(fs::exists(place));
-  EXPECT_TRUE(fs::exists(running.path()));
-}
-
 TEST_F(Report, DoesWithoutOptionalFiles) {
   const fs::path bare = copy("bare");
   fs::remove(bare / "events.csv");
@@ -522,15 +511,6 @@ TEST_F(Report, DoesWithoutOptionalFiles) {
   EXPECT_TRUE(parse(text).well_formed);
   EXPECT_TRUE(
       contains(text, {"events.csv is missing", "cycles.csv is missing", "parameters.csv is missing"}));
-}
-
-TEST_F(Report, ReplacesAnEarlierReportAsAWhole) {
-  const fs::path place = root / "again";
-  report_of({root / "runs" / "I-A"}, place);
-  write(place / "data" / "stale.csv", "x\n");
-  report_of({root / "runs" / "I-A"}, place);
-  EXPECT_FALSE(fs::exists(place / "data" / "stale.csv"));
-  EXPECT_TRUE(fs::exists(place / "index.html"));
 }
 
 TEST_F(Report, RefusesFoldersThatAreNoRuns) {
@@ -609,14 +589,6 @@ TEST_F(Report, DoesNotJudgeARunThatWasCut) {
       EXPECT_FALSE(contains(text, verdict))
           << row << text.substr(std::min(text.size(), text.find(verdict)), 300);
   }
-}
-
-TEST_F(Report, RefusesToReplaceWhatIsNoReport) {
-  fs::create_directories(root / "mine");
-  write(root / "mine" / "thesis.txt", "years\n");
-  expect_refusal(quote(root / "runs") + " --out " + quote(root / "mine"), "holds other files");
-  EXPECT_EQ(read_text(root / "mine" / "thesis.txt"), "years\n");
-  expect_refusal(quote(root / "runs") + " --out " + quote(root / "mine" / "thesis.txt"), "is not a folder");
 }
 
 TEST_F(Report, RefusesToReplaceWhatItReads) {

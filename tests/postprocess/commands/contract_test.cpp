@@ -1,11 +1,16 @@
-// Commands that are killed at random times and called again give what they give without an interruption.
-// Three kills of each; the environment variable DRUMLIN_KILLS asks for another number, and DRUMLIN_SEED for
-// the times of an earlier run, which has printed it.
+// What every command that writes results keeps to, as a table of commands: results are replaced as a whole or
+// continued, another call that writes there is waited for by nobody, a folder of something else is not
+// touched, and a full disk, a signal and a kill leave no half results.
+//
+// Commands that continue are killed at random times, three times each; the environment variable DRUMLIN_KILLS
+// asks for another number, and DRUMLIN_SEED for the times of an earlier run, which has printed it.
 #include "engine/places.h"
 #include "support/files.h"
 #include "support/process.h"
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
+#include "tests/support/lines.h"
+#include "tests/support/run_folders.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,7 +21,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
+#include <memory>
+#include <ostream>
 #include <random>
 #include <regex>
 #include <sstream>
@@ -122,19 +130,180 @@ void expect_same(const fs::path &whole, const fs::path &resumed) {
     EXPECT_EQ(expected.count(name), 1U) << name;
 }
 
-TEST(KilledAndCalledAgain, AMapIsTheSame) {
-  kill_and_resume({"map", "--x", "k:5e6:40e6:40", "--y", "D:0.1:0.5:30", "--out", "out"}, expect_same);
+enum class Results {
+  folder, ///< a folder that is replaced as a whole
+  files,  ///< files of a folder that may have others
+  rows    ///< a folder whose rows are continued
+};
+
+/// A command, called in a folder that has `run`, made by `drumlin exact`, and `bed`, a bed run with dumps.
+/// Its results are in `out` or, where that is a file, beside it.
+struct Command {
+  const char *name, *words;
+  Results results;
+};
+
+constexpr Command commands[] = {
+    {"exact", "exact --cycles 30 --out out", Results::files},
+    {"vtk", "vtk bed --out out", Results::files},
+    {"report", "report run --out out", Results::folder},
+    {"meter", "meter run --out out", Results::folder},
+    {"identify", "identify run --out out", Results::folder},
+    {"map", "map --x k:5e6:40e6:40 --y D:0.1:0.5:30 --out out", Results::rows},
+    {"map_of_the_meter", "map --x k:5e6:150e6:80 --identify 4 --out out", Results::rows},
+    {"study_of_the_meter", "study meter --quick --out out", Results::rows},
+};
+
+void PrintTo(const Command &command, std::ostream *out) { *out << command.name; }
+
+std::string name_of(const ::testing::TestParamInfo<Command> &command) { return command.param.name; }
+
+class Contract : public ::testing::TestWithParam<Command> {
+protected:
+  static void SetUpTestSuite() {
+    made_ = std::make_unique<Scratch>();
+    well(run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, made_->path()));
+    write_bed_run(*made_ / "bed", post::Transition::B);
+    write_bed_dumps(*made_ / "bed");
+    fs::remove(*made_ / post::program_output_file);
+  }
+  static void TearDownTestSuite() { made_.reset(); }
+
+  Contract() { fs::copy(made_->path(), folder_, fs::copy_options::recursive); }
+
+  std::vector<std::string> words() const {
+    std::vector<std::string> all = words_of(GetParam().words);
+    all.insert(all.begin(), DRUMLIN_TOOLS);
+    return all;
+  }
+  post::Program program() const {
+    post::Program program;
+    program.words = words();
+    program.folder = folder_;
+    program.output = scratch_ / "screen.txt";
+    return program;
+  }
+  Outcome call() const { return run_program(program()); }
+  bool is(Results results) const { return GetParam().results == results; }
+  /// The one line of error of a call that has failed; what it has printed besides may stand around it.
+  static std::string error_in(const std::string &output) {
+    std::string error;
+    for (const std::string &line : lines_of(output))
+      if (line.rfind("ERROR: drumlin ", 0) == 0) error += line;
+    EXPECT_EQ(error.find("ERROR: ", 1), std::string::npos) << output;
+    return error;
+  }
+  static void expect_refused(const Outcome &outcome, const Texts &says) {
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_TRUE(contains(error_in(outcome.output), says));
+  }
+  /// Nothing but what was there before the call, and its results.
+  void expect_no_leavings() const {
+    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(folder_)) {
+      const std::string name = entry.path().filename().string();
+      EXPECT_TRUE(name.front() != '.' && name.rfind("unfinished.", 0) != 0) << entry.path();
+    }
+  }
+
+  /// Whether the call that runs has made a file or folder by now.
+  bool has_begun() const {
+    for (const fs::directory_entry &entry : fs::directory_iterator(folder_))
+      if (!fs::exists(made_->path() / entry.path().filename())) return true;
+    return false;
+  }
+
+  static std::unique_ptr<Scratch> made_;
+  const Scratch scratch_;
+  const fs::path folder_ = scratch_ / "folder";
+};
+std::unique_ptr<Scratch> Contract::made_;
+
+// The second call gives the same again; of a folder that is replaced nothing is left of the first.
+TEST_P(Contract, CalledAgainItGivesTheSame) {
+  well(call());
+  const auto first = content(folder_ / "out");
+  if (is(Results::folder)) post::write_files({{folder_ / "out/data/stale.csv", "of an earlier call"}});
+  well(call());
+  EXPECT_TRUE(content(folder_ / "out") == first);
+  expect_no_leavings();
 }
 
-TEST(KilledAndCalledAgain, AMeterAlongAnAxisIsTheSame) {
-  kill_and_resume({"map", "--x", "k:5e6:150e6:80", "--identify", "4", "--out", "out"}, expect_same);
+TEST_P(Contract, AFolderOfSomethingElseIsKept) {
+  fs::create_directory(folder_ / "out");
+  post::write_files({{folder_ / "out/thesis.txt", "years\n"}});
+  const Outcome outcome = call();
+  if (is(Results::files))
+    well(outcome);
+  else
+    expect_refused(outcome, {"--out is 'out'", "; allowed: a "});
+  EXPECT_EQ(read_text(folder_ / "out/thesis.txt"), "years\n");
+  expect_no_leavings();
 }
 
-TEST(KilledAndCalledAgain, AStudyOfTheMeterIsTheSame) {
-  kill_and_resume({"study", "meter", "--quick", "--out", "out"}, expect_same);
+// The first call is stopped as soon as it has begun to write, and goes on when the second one has ended.
+// Commands that write files are done before they can be stopped.
+TEST_P(Contract, OneCallWritesAtATime) {
+  if (is(Results::files)) return;
+  bool tried = false;
+  post::Program first = program();
+  first.stop_when = [&](pid_t tool) {
+    if (tried || !has_begun()) return false;
+    tried = true;
+    ::kill(tool, SIGSTOP);
+    post::Program second = program();
+    second.output = scratch_ / "second.txt";
+    expect_refused(run_program(second), "into which another call writes; allowed: another folder");
+    ::kill(tool, SIGCONT);
+    return false;
+  };
+  well(run_program(first));
+  EXPECT_TRUE(tried);
+  EXPECT_FALSE(content(folder_ / "out").empty());
+  expect_no_leavings();
 }
 
-TEST(KilledAndCalledAgain, AStudyOfBedsIsTheSame) {
+// A limit on the size of files replaces a full disk; `cat` has none for what the command prints.
+TEST_P(Contract, OnAFullDiskItIsAnErrorAndEarlierResultsStay) {
+  if (!is(Results::rows)) well(call());
+  const auto before = content(folder_);
+  const std::string limited = fmt::format("(trap '' XFSZ; ulimit -f 1; '{}' {} || echo status $?) 2>&1 | cat",
+                                          DRUMLIN_TOOLS, GetParam().words);
+  post::Program full = program();
+  full.words = {"sh", "-c", limited};
+  const std::string printed = run_program(full).output;
+  EXPECT_NE(error_in(printed), "");
+  EXPECT_EQ(printed.substr(printed.rfind("status ")).size(), 9U) << printed; // of one digit
+  EXPECT_TRUE(is(Results::rows) || content(folder_) == before);
+  expect_no_leavings();
+  well(call());
+}
+
+// Ctrl-C, or what a scheduler sends: no temporary folder stays beside the results.
+TEST_P(Contract, ASignalLeavesNoHalfResults) {
+  if (!is(Results::folder)) return; // rows are killed and continued
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    SCOPED_TRACE(signal);
+    post::Program stopped = program();
+    stopped.stop_signal = signal;
+    bool begun = false;
+    stopped.stop_when = [&](pid_t) { return begun = has_begun(); };
+    const Outcome outcome = run_program(stopped);
+    EXPECT_TRUE(begun);
+    EXPECT_EQ(outcome.status, 128 + signal) << outcome.output;
+    EXPECT_FALSE(has_begun());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Contract, ::testing::ValuesIn(commands), name_of);
+
+class KilledAndCalledAgain : public ::testing::TestWithParam<Command> {};
+
+TEST_P(KilledAndCalledAgain, ItIsTheSame) { kill_and_resume(words_of(GetParam().words), expect_same); }
+
+INSTANTIATE_TEST_SUITE_P(, KilledAndCalledAgain,
+                         ::testing::ValuesIn(std::begin(commands) + 5, std::end(commands)), name_of);
+
+TEST(KilledStudyOfBeds, IsTheSame) {
   kill_and_resume({"study", "box", "--quick", "--out", "out"},
                   [](const fs::path &whole, const fs::path &resumed) {
                     EXPECT_EQ(without_times(read_text(resumed / "runs.csv")),
@@ -154,7 +323,7 @@ const std::vector<std::string> small_calibration = {
     "out",       "--set",    "m2=100",  "--set",         "m3=50",     "--set",   "r2=0.1", "--set",
     "r3=0.05",   "--set",    "k23=5e4", "--set",         "c23=500",   "--set",   "Fw=2940"};
 
-TEST(KilledAndCalledAgain, ACalibrationIsTheSame) { kill_and_resume(small_calibration, expect_same); }
+TEST(KilledCalibration, IsTheSame) { kill_and_resume(small_calibration, expect_same); }
 
 /// The processes that a process has started.
 std::vector<pid_t> children_of(pid_t parent) {
@@ -208,7 +377,7 @@ TEST(KilledEngine, EndsACalibrationThatContinues) {
   }
 }
 
-TEST(KilledAndCalledAgain, AReportIsTheSame) {
+TEST(KilledReport, IsTheSame) {
   const Scratch scratch;
   well(run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()));
   const std::string run = (scratch / "run").string();
@@ -225,6 +394,7 @@ TEST(CaseFile, GoesIntoACopyOfInstalledDecks) {
                     post::places().inputs.string(), post::plugin_library(), post::places().liggghts)}});
   std::vector<std::string> words = small_calibration;
   words.insert(words.begin(), DRUMLIN_TOOLS);
+  *(std::find(words.begin(), words.end(), "--evaluations") + 1) = "1";
   const Outcome outcome =
       well(run_program(words, {"DRUMLIN_PLACES=" + (scratch / "places").string()}, scratch.path(), 300.0));
   const std::string command = fmt::format(
@@ -234,33 +404,6 @@ TEST(CaseFile, GoesIntoACopyOfInstalledDecks) {
   well(run_program({"sh", "-c", command.substr(0, command.rfind(" && "))}, {}, scratch.path()));
   EXPECT_TRUE(fs::is_regular_file(scratch / "inputs/bed/case.calibrated"));
   EXPECT_TRUE(fs::is_regular_file(scratch / "inputs/bed/in.settle"));
-}
-
-// Ctrl-C, or what a scheduler sends: no temporary folder stays beside the results.
-TEST(StoppedBySignal, ACommandClearsAway) {
-  const Scratch scratch;
-  well(run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()));
-  for (const char *command : {"report", "identify", "meter"})
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-      SCOPED_TRACE(fmt::format("{}, signal {}", command, signal));
-      post::Program program;
-      program.words = {DRUMLIN_TOOLS, command, "run", "--out", "out"};
-      program.folder = scratch.path();
-      program.output = scratch / "screen.txt";
-      program.stop_signal = signal;
-      bool begun = false;
-      program.stop_when = [&](pid_t) {
-        for (const fs::directory_entry &entry : fs::directory_iterator(scratch.path()))
-          begun = begun || entry.path().filename().string().rfind(".out.new-", 0) == 0;
-        return begun;
-      };
-      const Outcome outcome = run_program(program);
-      EXPECT_TRUE(begun);
-      EXPECT_EQ(outcome.status, 128 + signal) << outcome.output;
-      for (const fs::directory_entry &entry : fs::directory_iterator(scratch.path()))
-        EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
-      EXPECT_FALSE(fs::exists(scratch / "out"));
-    }
 }
 
 } // namespace
