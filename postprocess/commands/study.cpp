@@ -43,8 +43,8 @@ constexpr int most_balls = 1000000;
 
 struct Arguments {
   std::string name;
-  std::optional<std::string> out, jobs, balls;
-  bool fresh = false, quick = false, keep = false;
+  std::optional<std::string> out, jobs, balls, part;
+  bool fresh = false, quick = false, keep = false, page_only = false;
 };
 
 /// The studies of the laboratory, which a build may not have.
@@ -126,11 +126,50 @@ StudyOptions judged(const Arguments &arguments, const std::string &name) {
   return options;
 }
 
+/// "3/8"
+Part part_from_text(const std::string &text) {
+  constexpr int most = 100000;
+  const std::size_t slash = text.find('/');
+  const auto whole = [](const std::string &digits) {
+    const std::optional<long> number = whole_number_from_text(digits);
+    return number && *number >= 1 && *number <= most ? static_cast<int>(*number) : 0;
+  };
+  Part part{0, 0};
+  if (slash != std::string::npos) part = {whole(text.substr(0, slash)), whole(text.substr(slash + 1))};
+  if (part.of == 0 || part.number == 0 || part.number > part.of)
+    throw UsageError(refusal("--part", text, "K/N, every N-th run, beginning with the K-th: 3/8"));
+  return part;
+}
+
+/// The folder of a part.
+fs::path folder_of(const fs::path &out, const Part &part) {
+  return out / parts_name / fmt::format("{}_of_{}", part.number, part.of);
+}
+
+/// Holds the folders of all parts, which no other call may be writing.
+std::vector<ResumedFolder> hold_parts(const StudyOptions &options, const std::string &settings) {
+  std::vector<ResumedFolder> held;
+  StudyOptions of_part = options;
+  if (fs::is_directory(options.out / parts_name))
+    for (const fs::directory_entry &part : fs::directory_iterator(options.out / parts_name)) {
+      of_part.out = part.path();
+      held.push_back(open_study(of_part, settings));
+    }
+  return held;
+}
+
 void run_plan(const Arguments &arguments) {
   const fs::path file = plan_file(arguments.name);
   const int jobs = count_option("--jobs", arguments.jobs.value_or("1"), 1, most_jobs);
   const int balls = arguments.balls ? count_option("--balls", *arguments.balls, least_balls, most_balls) : 0;
-  const StudyOptions options = judged(arguments, study_name(file));
+  StudyOptions options = judged(arguments, study_name(file));
+  std::optional<Part> part;
+  if (arguments.part) {
+    part = part_from_text(*arguments.part);
+    options.out = folder_of(options.out, *part);
+  }
+  if (part && arguments.page_only)
+    throw UsageError(refusal("--part", *arguments.part, "without --page-only"));
   check_engine_path(options.out);
   Plan plan = read_plan(file);
   std::vector<GivenPath> read = {{"NAME", file}};
@@ -144,8 +183,15 @@ void run_plan(const Arguments &arguments) {
   for (const Scene &scene : plan.scenes)
     if (const std::string fault = engine_fault(engine_of(scene.deck)); !fault.empty())
       throw UsageError(fault);
-  const ResumedFolder folder = open_study(options, settings_of(plan));
-  run_experiment(plan, options.out, jobs, arguments.keep);
+  const std::string settings = settings_of(plan);
+  const RunOptions how{jobs, arguments.keep, arguments.page_only};
+  if (part) {
+    const ResumedFolder folder = open_study(options, settings);
+    return make_part(plan, *part, options.out, how);
+  }
+  const std::vector<ResumedFolder> parts = hold_parts(options, settings);
+  const ResumedFolder folder = open_study(options, settings);
+  run_experiment(plan, options.out, how);
 }
 
 void run_study(const Study &study, const Arguments &arguments) {
@@ -154,6 +200,8 @@ void run_study(const Study &study, const Arguments &arguments) {
   };
   refuse_given("--jobs", arguments.jobs);
   refuse_given("--balls", arguments.balls);
+  refuse_given("--part", arguments.part);
+  if (arguments.page_only) throw UsageError("--page-only is given; allowed: with a study that is a plan");
   if (arguments.keep) throw UsageError("--keep is given; allowed: with a study that is a plan");
   const StudyOptions options = judged(arguments, study.name);
   keep_apart({}, {{"--out", options.out, true}});
@@ -179,6 +227,12 @@ void add_study_command(CLI::App &app, Session &) {
       command, "--balls", "COUNT", arguments->balls,
       "of a plan of beds: balls of its first scene; box and roller are scaled with their root, the balls "
       "are not");
+  text_option(
+      command, "--part", "K/N", arguments->part,
+      "of a plan: every N-th run alone, beginning with the K-th, for a job of its own; a call without "
+      "it takes over what all parts have made, makes what is missing, and writes the page");
+  command->add_flag("--page-only", arguments->page_only,
+                    "of a plan: makes no run; tells which are missing, and writes the page");
   command->add_flag("--keep", arguments->keep,
                     "of a plan: keep all files of the runs that this call makes, in runs/SCENE/SEED of the "
                     "results");

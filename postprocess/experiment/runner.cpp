@@ -33,9 +33,9 @@ struct Group {
   int seed;
 };
 
-/// All seeds of the scenes on one soil come before the others, so that a study that is interrupted has whole
-/// results of its first scenes.
-std::vector<Group> groups_of(const Plan &plan) {
+/// Those of a part of the plan. All seeds of the scenes on one soil come before the others, so that a study
+/// that is interrupted has whole results of its first scenes.
+std::vector<Group> groups_of(const Plan &plan, const Part &part) {
   std::vector<std::vector<const Scene *>> soils;
   for (const Scene &scene : plan.scenes) {
     const auto same = std::find_if(soils.begin(), soils.end(), [&scene](const auto &soil) {
@@ -47,13 +47,15 @@ std::vector<Group> groups_of(const Plan &plan) {
       same->push_back(&scene);
   }
   std::vector<Group> groups;
+  int run = 0;
   for (const std::vector<const Scene *> &soil : soils)
     for (int seed = 1;; ++seed) {
       Group group{{}, seed};
+      const int before = run;
       for (const Scene *scene : soil)
-        if (seed <= scene->seeds) group.scenes.push_back(scene);
-      if (group.scenes.empty()) break;
-      groups.push_back(group);
+        if (seed <= scene->seeds && ++run % part.of == part.number % part.of) group.scenes.push_back(scene);
+      if (run == before) break;
+      if (!group.scenes.empty()) groups.push_back(group);
     }
   return groups;
 }
@@ -68,15 +70,33 @@ void keep_files(const fs::path &run, const fs::path &folder) {
 
 class Runs {
 public:
-  Runs(const Plan &plan, const fs::path &out, bool keep)
-      : plan_(plan), out_(out), keep_(keep), groups_(groups_of(plan)),
-        table_(out / results_name, result_rows()), progress_(runs()) {}
+  Runs(const Plan &plan, const fs::path &out, const Part &part, bool keep)
+      : plan_(plan), out_(out), keep_(keep), groups_(groups_of(plan, part)),
+        table_(out / results_name, result_rows()), progress_(runs()) {
+    missing();       // asked for in order, which is that of the table
+    table_.finish(); // before the runs, for rows that belong to none of them
+  }
 
-  std::vector<std::string> make(int jobs) {
+  /// The runs that are not finished, "scene, seed 1".
+  std::vector<std::string> missing() {
+    std::vector<std::string> names;
     for (const Group &group : groups_)
       for (const Scene *scene : group.scenes)
-        is_finished(*scene, group.seed); // asked for in order, which is that of the table
-    table_.finish();                     // before the runs, for rows that belong to none of them
+        if (!is_finished(*scene, group.seed))
+          names.push_back(fmt::format("{}, seed {}", scene->name, group.seed));
+    return names;
+  }
+
+  /// Takes over the runs that other calls have made in a folder.
+  void take(const fs::path &folder) {
+    std::vector<ResumedTable::Row> rows;
+    for (const Result &result : read_points(folder / results_name, result_rows()))
+      if (!table_.has(result_rows().key(result))) rows.push_back(result_rows().cells(result));
+    table_.add(rows);
+    table_.finish();
+  }
+
+  std::vector<std::string> make(int jobs) {
     in_parallel(groups_.size(), jobs, [this](std::size_t i) {
       for (const Scene *scene : groups_[i].scenes)
         make_one(*scene, groups_[i].seed, groups_[i].scenes.size() > 1 ? Soil::kept : Soil::used_up);
@@ -174,13 +194,34 @@ private:
 
 } // namespace
 
-void run_experiment(const Plan &plan, const fs::path &out, int jobs, bool keep) {
+namespace {
+
+void throw_if_any(const std::vector<std::string> &failures, const char *told) {
+  if (!failures.empty())
+    throw std::runtime_error(fmt::format("{} of the runs failed; {}", failures.size(), told));
+}
+
+} // namespace
+
+void run_experiment(const Plan &plan, const fs::path &out, const RunOptions &options) {
   write_files({{out / plan_name, plan.copy()}});
-  const std::vector<std::string> failures = Runs(plan, out, keep).make(jobs);
+  Runs runs(plan, out, {}, options.keep);
+  if (fs::is_directory(out / parts_name))
+    for (const fs::directory_entry &part : fs::directory_iterator(out / parts_name))
+      runs.take(part.path());
+  const std::vector<std::string> failures =
+      options.page_only ? std::vector<std::string>() : runs.make(options.jobs);
+  if (options.page_only)
+    for (const std::string &name : runs.missing())
+      fmt::print("missing: {}\n", name);
   write_experiment_page(out, plan, read_results(out, plan), failures);
   fmt::print("{}\n", (out / "index.html").string());
-  if (!failures.empty())
-    throw std::runtime_error(fmt::format("{} of the runs failed; the page tells which", failures.size()));
+  throw_if_any(failures, "the page tells which");
+}
+
+void make_part(const Plan &plan, const Part &part, const fs::path &folder, const RunOptions &options) {
+  throw_if_any(Runs(plan, folder, part, options.keep).make(options.jobs),
+               "the lines above tell which, and the same command makes them again");
 }
 
 } // namespace drumlin::post

@@ -28,10 +28,12 @@ bool is_unfinished(const fs::path &file) {
   return std::regex_match(file.filename().string(), name);
 }
 
-/// Whether no other files than such are in a folder.
+/// Whether no other files than such and parts of the results are in a folder.
 bool has_no_others(const fs::path &folder) {
   return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
-                     [](const fs::directory_entry &entry) { return is_unfinished(entry.path()); });
+                     [](const fs::directory_entry &entry) {
+                       return is_unfinished(entry.path()) || entry.path().filename() == parts_name;
+                     });
 }
 
 /// The first line of each of two texts in which they differ; empty where one has no further line.

@@ -18,6 +18,9 @@ namespace drumlin::post {
 /// The file of a folder of results that has the settings they depend on.
 constexpr const char *settings_name = "study.txt";
 
+/// The folder within it where calls at the same time make a part each.
+constexpr const char *parts_name = "parts";
+
 /// A folder of results that a later call with the same settings continues. No other call can write into it as
 /// long as this object lives.
 class ResumedFolder {
