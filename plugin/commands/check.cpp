@@ -85,9 +85,7 @@ private:
 
   /// Rejects the value on all ranks if rank 0 has found it bad. Collective.
   void reject_if(bool bad_on_rank_0, const std::string &allowed) const {
-    int bad = bad_on_rank_0 ? 1 : 0;
-    MPI_Bcast(&bad, 1, MPI_INT, 0, lmp_->world);
-    if (bad != 0) reject(allowed);
+    stop_on(bad_on_rank_0 ? "; allowed: " + allowed : "");
   }
   bool is_rank_0() const { return lmp_->comm->me == 0; }
 
@@ -230,12 +228,8 @@ private:
     stop_on(is_rank_0() ? restart_fault(value_, notes) : "");
   }
   /// \param fault text behind the value, "; allowed: ..." or more; empty: none
-  void stop_on(std::string fault) const {
-    auto length = static_cast<int>(fault.size());
-    MPI_Bcast(&length, 1, MPI_INT, 0, lmp_->world);
-    fault.resize(static_cast<std::size_t>(length));
-    MPI_Bcast(fault.data(), length, MPI_CHAR, 0, lmp_->world);
-    if (!fault.empty()) throw Broken{fault};
+  void stop_on(const std::string &fault) const {
+    if (const std::string shared = engine::from_rank_0(lmp_, fault); !shared.empty()) throw Broken{shared};
   }
 
   void restart_name() { reject_if(is_rank_0() && !is_restart_name(value_), restart_name_allowed); }

@@ -9,8 +9,9 @@ namespace drumlin {
 /// drumlin/variable NAME DEFAULT RULE UNIT GROUP MEANING: declares a variable of the deck.
 void variable_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/variables [NAME ...]: ends the run if the command line gives a variable that is none of these and
-/// not declared, or a value that the engine's parser would change, or if a declared variable breaks its rule.
+/// drumlin/variables FILE [GROUP ...]: declares the variables of a table.
+/// drumlin/variables: ends the run if the command line gives a variable that is not declared, or a value that
+/// the engine's parser would change, or if a declared variable breaks its rule.
 void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/check NAME VALUE RULE ...: ends the run if the value of a variable breaks a rule.
@@ -76,7 +77,7 @@ template <class Add>
 void for_each_command(Add &&add) {
   add(CommandType<check_command>(), "drumlin/check", "checks the value of a variable");
   add(CommandType<variable_command>(), "drumlin/variable", "declares a variable of the deck");
-  add(CommandType<variables_command>(), "drumlin/variables", "checks the variables of the command line");
+  add(CommandType<variables_command>(), "drumlin/variables", "declares and checks the variables of a table");
   add(CommandType<roller_command>(), "drumlin/roller", "takes the values of a roller from its file");
   add(CommandType<pick_command>(), "drumlin/pick", "takes a number from a list");
   add(CommandType<layers_command>(), "drumlin/layers", "gives contacts the laws of the layers of a bed");

@@ -157,21 +157,16 @@ void ends_command(LAMMPS *lmp, int narg, char **arg) {
     values.*value = in.number(name, Range::non_negative);
   in.expect_end("machine CONTACTS ROLLER m2 m3 k23 c23 k D g");
   // Rank 0 reads the files, and the others get what follows from them: only one rank needs to see them.
-  std::string text;
-  int is_good = 0;
+  std::string text, fault;
   if (lmp->comm->me == 0) try {
       for (const auto &[name, value] : variables_of(contacts, roller, values))
         text += fmt::format("{} {}\n", name, value);
-      is_good = 1;
     } catch (const std::invalid_argument &error) {
-      text = error.what();
+      fault = error.what();
     }
-  MPI_Bcast(&is_good, 1, MPI_INT, 0, lmp->world);
-  auto length = static_cast<int>(text.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
-  text.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(text.data(), length, MPI_CHAR, 0, lmp->world);
-  if (is_good == 0) DeckVariables::refuse(lmp, "drumlin/ends: " + text);
+  fault = engine::from_rank_0(lmp, fault);
+  text = engine::from_rank_0(lmp, text);
+  if (!fault.empty()) DeckVariables::refuse(lmp, "drumlin/ends: " + fault);
   DeckVariables variables(lmp);
   std::istringstream lines(text);
   for (std::string name, value; lines >> name && std::getline(lines >> std::ws, value);)

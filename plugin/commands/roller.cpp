@@ -17,23 +17,18 @@ using LAMMPS_NS::LAMMPS;
 /// The roller of a file that rank 0 reads, on all ranks: only one rank needs to see the file. None if the
 /// file is no roller's, which is refused. Collective.
 std::optional<Roller> shared_roller(LAMMPS *lmp, const std::string &file) {
-  std::string text;
-  int is_roller = 0;
+  std::string text, fault;
   if (lmp->comm->me == 0) try {
       text = roller_text(file);
       for (const std::string &warning : read_roller(text, file).warnings)
         fmt::print(stderr, "WARNING: drumlin/roller: {}\n", warning);
-      is_roller = 1;
     } catch (const std::invalid_argument &error) {
-      text = error.what();
+      fault = error.what();
     }
-  MPI_Bcast(&is_roller, 1, MPI_INT, 0, lmp->world);
-  auto length = static_cast<int>(text.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
-  text.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(text.data(), length, MPI_CHAR, 0, lmp->world);
-  if (is_roller != 0) return read_roller(text, file);
-  DeckVariables::refuse(lmp, "drumlin/roller: " + text);
+  fault = engine::from_rank_0(lmp, fault);
+  text = engine::from_rank_0(lmp, text);
+  if (fault.empty()) return read_roller(text, file);
+  DeckVariables::refuse(lmp, "drumlin/roller: " + fault);
   return std::nullopt;
 }
 
@@ -91,6 +86,7 @@ void roller_command(LAMMPS *lmp, int narg, char **arg) {
   if (file == "none") {
     if (wanted && !wanted->empty())
       refuse("setting is '" + *wanted + "'; allowed: none, since no roller is given");
+    variables.set_default("roller_values", "setting none");
     return;
   }
 

@@ -16,19 +16,15 @@ using LAMMPS_NS::LAMMPS;
 /// The notes of a file, which rank 0 reads and sends to all ranks; none if there is no such file, which is
 /// refused. Collective.
 RestartNotes shared_notes(LAMMPS *lmp, const std::string &file) {
-  std::string text;
-  if (lmp->comm->me == 0)
-    for (const auto &[name, value] : can_be_read(file) ? notes_of(file) : RestartNotes())
+  std::string text, fault;
+  if (lmp->comm->me == 0) {
+    if (!can_be_read(file)) fault = "drumlin/take: file is '" + file + "'; allowed: a file that can be read";
+    for (const auto &[name, value] : fault.empty() ? notes_of(file) : RestartNotes())
       text += fmt::format("{} {}\n", name, value);
-  int readable = can_be_read(file) ? 1 : 0;
-  MPI_Bcast(&readable, 1, MPI_INT, 0, lmp->world);
-  if (readable == 0)
-    DeckVariables::refuse(lmp, "drumlin/take: file is '" + file + "'; allowed: a file that can be read");
-  auto length = static_cast<int>(text.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
-  text.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(text.data(), length, MPI_CHAR, 0, lmp->world);
-  std::istringstream lines(text);
+  }
+  fault = engine::from_rank_0(lmp, fault);
+  if (!fault.empty()) DeckVariables::refuse(lmp, fault);
+  std::istringstream lines(engine::from_rank_0(lmp, text));
   RestartNotes notes;
   for (std::string name, value; lines >> name >> value;)
     notes.emplace_back(name, value);

@@ -1,15 +1,23 @@
 #include "commands/commands.h"
 
 #include "commands/deck_variables.h"
+#include "physics/files/variable_table.h"
 #include "support/arguments.h"
 
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <iterator>
 #include <numeric>
+#include <sstream>
+#include <stdexcept>
 
 namespace drumlin {
 namespace {
+
+using LAMMPS_NS::LAMMPS;
+
+constexpr const char *rules = "a rule of drumlin/check, any, words or noted";
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -39,32 +47,141 @@ std::string nearest(const std::string &name, const std::vector<std::string> &kno
   });
 }
 
+/// A text with the values of ${NAME} and $(FORMULA) in it, as the engine has them in a line of a deck.
+std::string evaluated(LAMMPS *lmp, const std::string &text) {
+  if (text.find('$') == std::string::npos) return text;
+  int size = static_cast<int>(text.size()) + 1, copy_size = 0;
+  char *words = static_cast<char *>(lmp->memory->smalloc(size, "drumlin:words")), *copy = nullptr;
+  std::copy_n(text.c_str(), size, words);
+  lmp->input->substitute(words, copy, size, copy_size, 0);
+  std::string value = words;
+  lmp->memory->sfree(words);
+  lmp->memory->sfree(copy);
+  return value;
+}
+
+/// A name in ${NAME} or v_NAME of a formula that is no variable; empty: none.
+std::string unknown_in(const DeckVariables &variables, const std::string &text) {
+  const auto in_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (std::size_t at = 0; at + 2 < text.size(); ++at) {
+    const std::string two = text.substr(at, 2);
+    if (two != "${" && (two != "v_" || (at > 0 && in_name(text[at - 1])))) continue;
+    const auto begin = text.begin() + static_cast<std::ptrdiff_t>(at) + 2;
+    std::string name(begin, std::find_if_not(begin, text.end(), in_name));
+    if (!variables.value(name)) return name;
+  }
+  return "";
+}
+
+/// \param standard the default value \param command for the error of a rule that does not exist
+void declare(LAMMPS *lmp, const VariableLine &line, const std::string &standard, const std::string &command) {
+  DeckVariables variables(lmp);
+  std::istringstream words(evaluated(lmp, line.rule));
+  std::vector<std::string> rule(std::istream_iterator<std::string>(words), {});
+  rule.resize(std::max<std::size_t>(rule.size(), 1)); // an empty rule is refused below
+  const std::string &name = line.name;
+  DeclaredVariable variable{name, line.group, rule[0] != "noted", rule[0] == "words"};
+  const std::vector<GivenVariable> all_given = given_variables();
+  // Remove the variables of the command line that are not declared: -var must not change what a deck uses
+  // internally.
+  if (!variables.open())
+    for (const GivenVariable &given : all_given)
+      if (!of_front_script(given.name) && !variables.is_declared(given.name)) variables.remove(given.name);
+  const auto given = std::find_if(all_given.begin(), all_given.end(),
+                                  [&](const GivenVariable &one) { return one.name == name; });
+  TakenNotes taken = variables.taken();
+  const bool is_noted = std::any_of(taken.notes.begin(), taken.notes.end(),
+                                    [&](const auto &note) { return note.first == name; });
+  variable.chosen = (variable.given && given != all_given.end()) || is_noted;
+  if (!taken.notes.empty() && is_in(taken.later, name) && !is_noted) {
+    taken.notes.emplace_back(name, standard);
+    variables.take(taken);
+  }
+  variables.declare(variable);
+  if (variable.given && given != all_given.end()) variables.set(name, joined(given->values, " "));
+  variables.set_default(name, standard);
+  // With a fault the deck continues with the default, so that drumlin/variables can first name a variable
+  // that the deck does not have.
+  const auto refuse = [&](const std::string &fault) {
+    variables.add_fault("drumlin/variable: " + fault);
+    variables.set(name, standard);
+  };
+  if (variable.given && given != all_given.end())
+    if (const std::string allowed = value_fault(*given, variable.words); !allowed.empty()) {
+      refuse(given->shown() + "; allowed: " + allowed);
+      return;
+    }
+  const std::string value = variables.value(name).value_or("");
+  const std::string is = fmt::format("variable {} is '{}'", name, value);
+  if (const std::string allowed = variables.note_fault(variable, value); !allowed.empty()) {
+    refuse(is + "; allowed: " + allowed);
+    return;
+  }
+  if (rule[0] == "any" || rule[0] == "words" || rule[0] == "noted") return;
+  std::replace(rule.begin(), rule.end(), std::string("%"), value);
+  if (const std::string fault = rule_fault(lmp, command, name, value, rule); !fault.empty())
+    refuse(is + fault);
+}
+
+/// Declares the variables of a table that are not declared yet.
+void declare_table(LAMMPS *lmp, const std::string &file, const std::vector<std::string> &groups) {
+  const std::string command = "drumlin/variables";
+  std::string text, fault;
+  if (lmp->comm->me == 0) try {
+      text = variable_table_text(file);
+      read_variable_table(text, file, groups);
+    } catch (const std::invalid_argument &error) {
+      fault = error.what();
+    }
+  engine::stop_on_fault(lmp, command, fault);
+  const DeckVariables variables(lmp);
+  for (const VariableLine &line : read_variable_table(engine::from_rank_0(lmp, text), file, groups)) {
+    if (variables.is_declared(line.name)) continue;
+    const std::string where = fmt::format("{}: line {} of '{}'", command, line.line, file);
+    for (const std::string &formula : {line.standard, line.rule})
+      if (const std::string unknown = unknown_in(variables, formula); !unknown.empty())
+        engine::stop(lmp, fmt::format("{}: formula is '{}', of an unknown variable {}; allowed: variables "
+                                      "above it, or of the deck",
+                                      where, formula, unknown));
+    declare(lmp, line, evaluated(lmp, line.standard), where);
+  }
+}
+
 } // namespace
 
-void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
+void variable_command(LAMMPS *lmp, int narg, char **arg) {
+  Arguments in(lmp->error, "drumlin/variable", narg, arg);
+  VariableLine line;
+  line.name = in.word("name", "the variable's name");
+  const std::string of = " of variable " + line.name;
+  line.standard = in.word("default value" + of);
+  line.rule = in.word("rule" + of, rules);
+  line.unit = in.word("unit" + of, "a unit, or -");
+  line.group = in.word("group" + of, "a word");
+  line.meaning = in.word("meaning" + of, "a text in quotes");
+  in.expect_end("NAME DEFAULT RULE UNIT GROUP MEANING");
+  declare(lmp, line, line.standard, "drumlin/variable");
+}
+
+void variables_command(LAMMPS *lmp, int narg, char **arg) {
   Arguments in(lmp->error, "drumlin/variables", narg, arg);
-  std::vector<std::string> known;
-  std::vector<std::string> of_words;
-  for (bool words = false; !in.empty();) {
-    const std::string name = in.word("name");
-    if (name == "of_words") {
-      words = true;
-      continue;
-    }
-    known.push_back(name);
-    if (words) of_words.push_back(name);
+  if (!in.empty()) {
+    const std::string file = in.word("table");
+    std::vector<std::string> groups;
+    while (!in.empty())
+      groups.push_back(in.word("group"));
+    return declare_table(lmp, file, groups);
   }
   DeckVariables variables(lmp);
   variables.close();
   const std::vector<DeclaredVariable> declared = variables.declared();
-  if (!declared.empty() && !known.empty())
-    in.fail("name", known.front(), "no names behind drumlin/variable, which declares each");
+  if (declared.empty())
+    in.fail("table is missing; allowed: a table of variables, or lines drumlin/variable before");
+  std::vector<std::string> known, of_words;
   for (const DeclaredVariable &variable : declared) {
     if (variable.given) known.push_back(variable.name);
     if (variable.words) of_words.push_back(variable.name);
   }
-  if (known.empty() && declared.empty())
-    in.fail("the names are missing; allowed: the names of the deck's variables");
   // Every rank was started with the same command line, so that all find the same fault.
   const std::vector<GivenVariable> all_given = given_variables();
   for (const GivenVariable &given : all_given)

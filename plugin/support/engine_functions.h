@@ -24,16 +24,20 @@ inline void stop(const LAMMPS *lmp, const std::string &text) {
   lmp->error->all(FLERR, engine::error_text(text));
 }
 
+/// A text of rank 0 on all ranks: only one rank needs to see a file. Collective.
+inline std::string from_rank_0(const LAMMPS *lmp, std::string text) {
+  auto length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
+  text.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(text.data(), length, MPI_CHAR, 0, lmp->world);
+  return text;
+}
+
 /// Ends the run on all ranks with the line "ERROR: COMMAND: FAULT" if rank 0 has found a fault. Collective.
 /// \param fault on rank 0 "KEYWORD is 'VALUE'; allowed: WHAT", or empty if all is well; ignored on other
 /// ranks
-inline void stop_on_fault(const LAMMPS *lmp, const std::string &command, std::string fault) {
-  auto length = static_cast<int>(fault.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
-  if (length == 0) return;
-  fault.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(fault.data(), length, MPI_CHAR, 0, lmp->world);
-  stop(lmp, command + ": " + fault);
+inline void stop_on_fault(const LAMMPS *lmp, const std::string &command, const std::string &fault) {
+  if (const std::string shared = from_rank_0(lmp, fault); !shared.empty()) stop(lmp, command + ": " + shared);
 }
 
 /// The bit of a group, by its number, in the masks of balls: both engines number bits as groups. (LAMMPS

@@ -108,7 +108,14 @@ private:
     } else if (words.size() == 4 && words[0] == "variable") {
       set(words[1], words[2], with_values(words[3], values_));
     } else if (words.size() == 7 && words[0] == "drumlin/variable") {
-      declare(words);
+      declare({words[1], words[2], words[4], words[3], words[5], words[6]});
+    } else if (words.size() > 1 && words[0] == "drumlin/variables") {
+      const std::string file = with_values(words[1], values_);
+      std::string groups;
+      for (auto word = words.begin() + 2; word != words.end(); ++word)
+        groups += with_values(*word, values_) + " ";
+      for (const DeckVariable &line : read_variable_table(variable_table_text(file), file, words_of(groups)))
+        declare(line);
     }
     return "";
   }
@@ -167,13 +174,12 @@ private:
                         : *a <= *b;
   }
 
-  void declare(const std::vector<std::string> &words) {
-    const std::string value = values_.emplace(words[1], with_values(words[2], values_)).first->second;
-    const DeckVariable variable{words[1], value,    with_values(words[3], values_),
-                                words[4], words[5], words[6]};
+  void declare(DeckVariable line) {
+    line.standard = values_.emplace(line.name, with_values(line.standard, values_)).first->second;
+    line.rule = with_values(line.rule, values_);
     const auto same = std::find_if(variables.begin(), variables.end(),
-                                   [&](const DeckVariable &other) { return other.name == variable.name; });
-    if (variable.rule != "noted" && same == variables.end()) variables.push_back(variable);
+                                   [&](const DeckVariable &other) { return other.name == line.name; });
+    if (line.rule != "noted" && same == variables.end()) variables.push_back(line);
   }
 
   Values values_;

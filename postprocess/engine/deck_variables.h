@@ -1,5 +1,7 @@
-// The variables of a deck, read from its lines `drumlin/variable` without a run.
+// The variables of a deck, read from its tables and its lines `drumlin/variable` without a run.
 #pragma once
+
+#include "files/variable_table.h"
 
 #include <filesystem>
 #include <map>
@@ -9,9 +11,7 @@
 namespace drumlin::post {
 
 /// A variable as a deck declares it; texts as in the deck.
-struct DeckVariable {
-  std::string name, standard, rule, unit, group, meaning;
-};
+using DeckVariable = VariableLine;
 
 /// The variables that a deck and the files that it includes declare, in this order. An `if` whose
 /// condition the values decide is followed, others are ignored. \param given values of -var, which decide

@@ -167,8 +167,8 @@ TEST_P(OwnWeight, StandsOnTheFloorAloneBetweenSmoothWalls) {
   EXPECT_NEAR(run.first("left_force_N"), run.first("side_force_N"), 1e-4 * run.first("side_force_N"));
 }
 
-/// The default value of a variable: VALUE of the line `variable NAME index VALUE`, or `drumlin/variable NAME
-/// VALUE`, in an input file.
+/// The default value of a variable in an input file: VALUE of the line `variable NAME index VALUE`, or of the
+/// line `NAME VALUE` of a table.
 std::string default_of(const std::string &file, const std::string &name) {
   std::istringstream lines(read_text(chain_deck(file)));
   for (std::string line; std::getline(lines, line);) {
@@ -176,7 +176,7 @@ std::string default_of(const std::string &file, const std::string &name) {
     std::string command, variable, style, value;
     words >> command >> variable >> style >> value;
     if (command == "variable" && variable == name && style == "index") return value;
-    if (command == "drumlin/variable" && variable == name) return style;
+    if (command == name) return variable;
   }
   return "none in " + file;
 }

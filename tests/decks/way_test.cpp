@@ -59,7 +59,7 @@ protected:
                                 const Variables &more = {}) {
     write(folder / "way.csv", post::way_text(drive.way));
     const auto &[engine, stepping] = GetParam();
-    return run_deck(chain_deck(engine == "lammps" ? "in.chain.lammps" : "in.chain"),
+    return run_deck(chain_deck(engine == "lammps" ? "in.way.lammps" : "in.way"),
                     with(more, {{"way", (folder / "way.csv").string()},
                                 {"speed", number(drive.speed)},
                                 {"passes", std::to_string(drive.passes)},

@@ -118,6 +118,36 @@ TEST(RefusedDecks, KeepTheirOwnVariables) {
     }
 }
 
+/// The commands of a deck without those whose words are an engine's own: how it starts, and the contact law.
+std::vector<std::string> without_words_of_an_engine(const std::string &deck) {
+  const std::set<std::string> own = {"plugin",      "atom_style", "communicate",
+                                     "comm_modify", "pair_style", "pair_coeff"};
+  std::vector<std::string> commands;
+  std::string command;
+  for (std::string line : lines_of(read_text(inputs / deck))) {
+    line.erase(std::min(line.find('#'), line.size()));
+    line.erase(line.find_last_not_of(' ') + 1);
+    const bool continued = !line.empty() && line.back() == '&';
+    command += line;
+    if (continued) continue;
+    std::istringstream words(std::exchange(command, ""));
+    std::string first, id, group, style;
+    words >> first >> id >> group >> style;
+    if (!first.empty() && own.count(first) == 0 && style != "property/global")
+      commands.push_back(words.str());
+  }
+  return commands;
+}
+
+// Decks that are complete for each engine are the same but for the words of the engines.
+TEST(RefusedDecks, OfBothEnginesAreTheSameButForTheirWords) {
+  for (const std::string deck : {"chain/in.chain", "chain/in.way", "chain/in.impact"}) {
+    const std::vector<std::string> commands = without_words_of_an_engine(deck);
+    EXPECT_GT(commands.size(), 30u) << deck;
+    EXPECT_EQ(commands, without_words_of_an_engine(deck + ".lammps")) << deck;
+  }
+}
+
 // The engine's error->all() would use the text as a format, in which {} means an argument.
 TEST(RefusedDecks, BracesStayAsTheyAreInLammps) {
   if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";

@@ -101,12 +101,12 @@ ChainRun run_chain(const std::string &name, post::Transition transition, int ste
 fs::path chain_with_bottom(const fs::path &folder, double bottom) {
   fs::path copy = folder / "chain";
   fs::copy(chain_deck(""), copy);
-  std::string text = read_text(copy / "two_balls");
+  std::string text = read_text(copy / "in.chain");
   const std::string own = "block -1 1 -1 1 -1.5 4";
   const std::size_t found = text.find(own);
-  if (found == std::string::npos) throw std::runtime_error("two_balls has another box than '" + own + "'");
+  if (found == std::string::npos) throw std::runtime_error("in.chain has another box than '" + own + "'");
   text.replace(found, own.size(), "block -1 1 -1 1 " + number(bottom) + " 4");
-  std::ofstream(copy / "two_balls") << text;
+  std::ofstream(copy / "in.chain") << text;
   return copy;
 }
 

@@ -101,6 +101,36 @@ TEST_P(DeckVariablesTest, ThatAreNewHaveTheirDefaultsInEarlierFiles) {
                       "variable yield is '3'; allowed: 1, with which 'own.data' was made"));
 }
 
+// A table does what its lines would do in the deck: formulas of variables above, values that the deck has set
+// before, groups of which each has its own default; what is declared already keeps its declaration.
+TEST_P(DeckVariablesTest, StandInATable) {
+  write_text(folder_ / "own.variables",
+             "# name default unit rule group meaning\n"
+             "case    II   -      \"one_of I II\" scene a case\n"
+             "limit   5    -      any           scene of others\n\n"
+             "k       1e8  N/m    positive      soil  stiffness, of \"all\" contacts\n"
+             "kt      $(2/7*v_k) \"N s\" \"below ${limit}e9\" soil tangential\n"
+             "of_kt   ${kt} N/m   positive      soil  the same text\n"
+             "length  3    m      positive      short of the run\n"
+             "length  30   m      positive      long  of the run\n"
+             "out     out  -      output_folder long  of files\n");
+  const std::string deck = "drumlin/variable limit 4 any - run \"of a deck of one's own\"\n"
+                           "drumlin/variables own.variables scene\nvariable k index 7e8\n"
+                           "drumlin/variables own.variables soil long\ndrumlin/variables\n"
+                           "drumlin/record parameters.csv\n";
+  well(run(deck, {{"case", "I"}}));
+  EXPECT_EQ(row("case"), "I");
+  EXPECT_EQ(row("limit"), "4");
+  EXPECT_EQ(row("k"), "7e8");
+  EXPECT_EQ(std::stod(row("kt")), 2.0 / 7.0 * 7e8);
+  EXPECT_EQ(row("of_kt"), row("kt"));
+  EXPECT_EQ(row("length"), "30");
+  EXPECT_TRUE(printed(run(deck, {{"kt", "4e9"}}), "ERROR: drumlin/variable: variable kt is '4e9'; allowed: "
+                                                  "a finite number below 4e+09"));
+  EXPECT_TRUE(
+      printed(run(deck, {{"kk", "1"}}), "allowed: k, the nearest of limit, case, k, kt, of_kt, length"));
+}
+
 TEST_P(DeckVariablesTest, OfAnUnknownNameAreRefusedFirst) {
   EXPECT_TRUE(printed(run(declarations, {{"K", "1"}, {"k", "-1"}}),
                       "ERROR: drumlin/variables: -var K is '1', a variable that this deck does not have; "

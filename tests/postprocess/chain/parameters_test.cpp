@@ -23,7 +23,7 @@ using namespace drumlin::post;
 double deck_value(const std::string &deck, const std::string &name) {
   const std::string text = read_text(std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/chain" / deck);
   std::smatch match;
-  const std::regex line("(?:^|\n)(?:drumlin/)?variable +" + name +
+  const std::regex line("(?:^|\n)(?:variable +)?" + name +
                         R"( +(?:index +)?(?:\$\(([0-9.]+)\*PI\)|([0-9.e]+)))");
   if (!std::regex_search(text, match, line)) throw std::runtime_error(deck + " has no variable " + name);
   return match[1].matched ? std::stod(match[1]) * std::acos(-1.0) : std::stod(match[2]);
@@ -42,12 +42,12 @@ TEST(Table1, IsWhatTheDecksHave) {
 
 TEST(Table1, DefaultsAreThoseOfTheDeck) {
   const ChainParameters p;
-  EXPECT_EQ(p.Fw, deck_value("parameters", "Fw"));
-  EXPECT_EQ(p.m2, deck_value("parameters", "m2"));
-  EXPECT_EQ(p.m3, deck_value("parameters", "m3"));
-  EXPECT_EQ(p.k23, deck_value("parameters", "k23"));
-  EXPECT_EQ(p.c23, deck_value("parameters", "c23"));
-  EXPECT_EQ(p.g, deck_value("parameters", "g"));
+  EXPECT_EQ(p.Fw, deck_value("variables", "Fw"));
+  EXPECT_EQ(p.m2, deck_value("variables", "m2"));
+  EXPECT_EQ(p.m3, deck_value("variables", "m3"));
+  EXPECT_EQ(p.k23, deck_value("variables", "k23"));
+  EXPECT_EQ(p.c23, deck_value("variables", "c23"));
+  EXPECT_EQ(p.g, deck_value("variables", "g"));
   const ChainParameters second = table1_case("II", Transition::B);
   for (const ChainNumber &number : chain_numbers)
     EXPECT_EQ(p.*number.value, second.*number.value) << number.name;

@@ -59,6 +59,20 @@ TEST_F(DeckHelp, ReadsDeclarationsWhereverTheyStand) {
   EXPECT_LT(text().find("soil:"), text().find("run:")); // what every deck has stands last
 }
 
+TEST_F(DeckHelp, ReadsTables) {
+  write("in.deck", "drumlin/variables ${here}/table scene\ninclude ${here}/case.${case}\n"
+                   "drumlin/variables ${here}/table soil\ndrumlin/variables\n");
+  write("table",
+        "# name default unit rule group meaning\ncase one - \"suffix_of ${here}/case.\" scene a case\n"
+        "k 1e8 N/m positive soil stiffness\nkt $(2/7*v_k) N/m positive soil of tangential springs\n"
+        "speed 1 m/s positive way of another deck\n");
+  write("case.one", "variable k index 2e8\n");
+  EXPECT_EQ(line("case"), "one (one)");
+  EXPECT_EQ(line("k"), "2e8 N/m (> 0)");
+  EXPECT_EQ(line("kt"), "2/7*k N/m (> 0)");
+  EXPECT_EQ(line("speed"), "");
+}
+
 TEST_F(DeckHelp, FollowsConditionsThatItKnows) {
   write("in.deck", "drumlin/variable dimension 2 \"one_of 2 3\" - run \"of the scene\"\n"
                    "if \"${dimension} == 3\" then \"variable k index 4e6\" else \"variable k index 5e6\"\n"
