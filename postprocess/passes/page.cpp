@@ -6,6 +6,7 @@
 #include "passes/tables.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -370,9 +371,27 @@ std::string answer_of(const Results &results) {
   return text + ".";
 }
 
+/// What the densities are worth, told before them.
+std::string worth_of(const Results &results) {
+  std::vector<std::string> loosened;
+  const std::size_t layers = results.front().layers();
+  for (std::size_t layer = layers; layer-- > 0;)
+    if (const MeanInterval gain = gain_of(results, layer); gain.significant() && gain.mean < 0.0)
+      loosened.push_back(layer + 1 == layers ? "the lift" : fmt::format("layer {}", layer + 1));
+  if (loosened.empty())
+    return "What the densities are worth: they may be compared with those of other runs, not with a site. "
+           "Dense "
+           "soil of this model loosens under a roller, which that of a site does not.";
+  return fmt::format("This result contradicts experience: {} loosened under the roller. Disregard solid "
+                     "fractions, degrees of compaction and settlement; forces and meter values are those on "
+                     "soil of such a density.",
+                     fmt::join(loosened, " and "));
+}
+
 void write_passes_page(const std::filesystem::path &folder, const Results &results, const JudgedMap &judged) {
   const PassesResult &one = results.front();
   Page page(folder, "What the passes of a roller leave", Drawing::bed);
+  page.answer(worth_of(results));
   page.answer(answer_of(results));
   page.answer(answer_of(judged.map, judged.rows, judged.rule));
   for (const std::string &answer : answers_on_spots(judged.map))

@@ -16,11 +16,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <map>
 #include <regex>
 #include <set>
 #include <string>
+#include <thread>
 #include <tuple>
 #include <vector>
 
@@ -147,6 +149,51 @@ TEST(OwnStudy, RunsAnyDeckThatWritesATableAndContinues) {
       << failing.output;
   EXPECT_EQ(values_in(out), values);
   EXPECT_NE(post::read_text(out / "index.html").find("Missing: seed 2, too high"), std::string::npos);
+}
+
+// Parts in folders of their own, two of them at the same time and one killed before its end, are one call.
+TEST(OwnStudy, PartsTogetherAreOneCall) {
+  const Scratch scratch;
+  post::write_files({{scratch / "in.own", own_deck}, {scratch / "heights.plan", own_plan}});
+  const auto program = [&](const std::vector<std::string> &options) {
+    post::Program made;
+    made.words = {DRUMLIN_TOOLS, "study", "heights.plan"};
+    made.words.insert(made.words.end(), options.begin(), options.end());
+    made.folder = scratch.path();
+    made.output = scratch / (options.size() > 2 ? "part" + options[3].substr(0, 1) + ".txt" : "all.txt");
+    return made;
+  };
+  const auto run = [&](const std::vector<std::string> &options) { return run_program(program(options)); };
+  ASSERT_TRUE(run({"--out", "whole"}).ok());
+  const auto part = [&](int number) {
+    return program({"--out", "out", "--part", fmt::format("{}/4", number)});
+  };
+  std::thread other([&] { run_program(part(1)); });
+  run_program(part(2));
+  other.join();
+  post::Program killed = part(3);
+  killed.limit = 0.02;
+  killed.stop_signal = SIGKILL;
+  run_program(killed);
+  ASSERT_TRUE(run_program(part(3)).ok());
+  // Runs 4 and 8 of the nine are of the part that has not been made.
+  const Outcome page = run_program({DRUMLIN_TOOLS, "study", "heights.plan", "--out", "out", "--page-only"},
+                                   {}, scratch.path());
+  ASSERT_TRUE(page.ok()) << page.output;
+  EXPECT_TRUE(page.says("missing: two, seed 1\nmissing: four, seed 2\n")) << page.output;
+  EXPECT_EQ(values_in(scratch / "out").size(), 7U * 2U);
+  EXPECT_EQ(values_in(scratch / "out/parts/3_of_4").size(), 2U * 2U);
+  ASSERT_TRUE(run({"--out", "out"}).ok());
+  const post::Table whole = post::read_table(scratch / "whole/runs.csv"),
+                    parts = post::read_table(scratch / "out/runs.csv");
+  ASSERT_EQ(parts.rows(), whole.rows());
+  for (const std::string &column : whole.header())
+    if (column != "cost [s]") EXPECT_EQ(parts.text(column), whole.text(column)) << column;
+  for (const char *wrong : {"0/4", "5/4", "3", "3/", "x/y"})
+    EXPECT_TRUE(run({"--out", "out", "--part", wrong})
+                    .says(fmt::format("ERROR: drumlin study: --part is '{}'; allowed: K/N, every N-th run, "
+                                      "beginning with the K-th: 3/8",
+                                      wrong)));
 }
 
 // What a deck includes belongs to what the results depend on, and nothing that a call reads is removed by it.
