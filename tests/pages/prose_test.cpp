@@ -48,8 +48,7 @@ TEST_P(Prose, IsAsItWasApproved) {
   for (std::size_t at = page.find(here); at != std::string::npos; at = page.find(here, at))
     page.replace(at, here.size(), "FOLDER");
   const std::string prose = prose_of(page);
-  const fs::path approved =
-      fs::path(DRUMLIN_SOURCE_DIR) / "tests/pages" / (std::string(name) + ".txt");
+  const fs::path approved = fs::path(DRUMLIN_SOURCE_DIR) / "tests/pages" / (std::string(name) + ".txt");
   if (std::getenv("DRUMLIN_REWRITE") != nullptr)
     std::ofstream(approved) << prose;
   else
