@@ -3,7 +3,7 @@
 #include "tests/support/balls_run.h"
 #include "tests/support/checks.h"
 #include "tests/support/frame_distance.h"
-#include "tests/plugin/law_samples.h"
+#include "tests/core/law_samples.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Damaged files given to the decks of the bed, as tests/postprocess/commands/fuzz_test.cpp gives them to the
+// Damaged files given to the decks of the bed, as tests/tools/contracts/fuzz_test.cpp gives them to the
 // tools: each deck ends within 20 s in a result or in one line of error, and leaves nothing half-written. The
 // number of a mutant is the seed of its faults.
 #include "tests/support/checks.h"

@@ -1,4 +1,4 @@
-#include "tests/plugin/law_samples.h"
+#include "tests/core/law_samples.h"
 #include "tests/refused/refusals.h"
 #include "tests/support/host_deck.h"
 

@@ -55,6 +55,8 @@ private:
       says_ = line.substr(message.size());
     } else if (begins_with(line, more) && !says_.empty()) {
       says_ += line.substr(more.size() - 1);
+    } else if (begins_with(line, more) && words_.empty() && !files_.empty()) {
+      files_.back().second += file_text(line.substr(more.size()));
     } else {
       finish();
       if (line.empty() || line[0] == '#') {
@@ -87,9 +89,9 @@ private:
     auto &all = begins_with(line, "file ") ? files_ : made_;
     all.erase(std::remove_if(all.begin(), all.end(), [&](const auto &old) { return old.first == called; }),
               all.end());
-    if (text != std::string::npos)
-      all.emplace_back(called, whole(replaced(line.substr(text + 1), "\\n", "\n")));
+    if (text != std::string::npos) all.emplace_back(called, file_text(line.substr(text + 1)));
   }
+  std::string file_text(const std::string &given) const { return whole(replaced(given, "\\n", "\n")); }
 
   void add_words(const std::string &line) {
     if (tools_ && !words_.empty()) fail("'" + words_ + "' has no message; allowed: WORDS | MESSAGE");

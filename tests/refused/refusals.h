@@ -22,7 +22,8 @@
 // A row of `tools` has the words of a command line, '' an empty one. Its error line begins with the command
 // and the message; a message that begins with "... " stands anywhere behind the command. Lines between the
 // rows:
-//     file NAME TEXT                      a file of the rows below; without TEXT: there no longer
+//     file NAME TEXT                      a file of the rows below, which may go on after four blanks in the
+//                                         next line; without TEXT: there no longer
 //     made NAME chain                     the folder of a run of the chain, also impact, bed
 // The exit status is 2; {status 1} where the command line is right, but what it names is not.
 //

@@ -1,0 +1,299 @@
+// Regimes and meter values against known values and the direct solver; the map as a user runs it.
+#include "chain/direct_solver.h"
+#include "map/regime_map.h"
+#include "support/csv.h"
+#include "support/files.h"
+#include "support/process.h"
+#include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
+#include "tests/support/lines.h"
+#include "tests/support/tool.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <filesystem>
+#include <functional>
+#include <numeric>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace drumlin::post;
+using namespace drumlin::test;
+namespace fs = std::filesystem;
+
+// From the phase integrals of two independent solutions.
+TEST(Regime, MeterValuesOfTheCasesThatLoseContact) {
+  const auto cmv = [](const char *name) {
+    return judge_regime(table1_case(name, Transition::B), 300).meter.cmv;
+  };
+  EXPECT_NEAR(cmv("II"), 155.948, 1e-5 * 155.948);
+  EXPECT_NEAR(cmv("III"), 105.730, 1e-5 * 105.730);
+  EXPECT_NEAR(cmv("IV"), 247.175, 1e-5 * 247.175);
+}
+
+TEST(Regime, CasesAreInTheRegimesOfTheirSteadyStates) {
+  for (const Transition transition : {Transition::A, Transition::B}) {
+    const auto regime = [&](const char *name) {
+      return judge_regime(table1_case(name, transition), 300).regime;
+    };
+    EXPECT_EQ(regime("I"), Regime::continuous_contact);
+    EXPECT_EQ(regime("II"), Regime::partial_uplift);
+    EXPECT_EQ(regime("III"), Regime::partial_uplift);
+    EXPECT_EQ(regime("IV"),
+              transition == Transition::A ? Regime::continuous_contact : Regime::partial_uplift);
+  }
+  const RegimePoint two = judge_regime(table1_case("II", Transition::B), 300);
+  EXPECT_NEAR(two.meter.contact_share, 0.202, 5e-4);
+  EXPECT_NEAR(two.meter.peak_force, 247.27e3, 10.0);
+}
+
+// Period and loss of contact as the direct solver's history has them after many cycles; points near a change
+// are left out, since a history of finite length does not determine the regime there.
+TEST(Regime, AgreesWithTheDirectSolverAtRandomPoints) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  int judged = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    ChainParameters p = table1_case("II", trial % 3 == 0 ? Transition::A : Transition::B);
+    p.k = 2e6 * std::pow(100.0, share(random));
+    p.D = 0.05 * std::pow(20.0, share(random));
+    p.omega *= 0.8 + share(random);
+    const RegimePoint point = judge_regime(p, 300);
+    if (point.regime == Regime::undecided || point.period > 4 || point.multiplier > 0.95) continue;
+    ++judged;
+    DirectOptions options;
+    options.cycles = 400;
+    options.samples_per_cycle = 1;
+    options.rtol = 1e-11;
+    const DirectResult direct = solve_direct(p, options);
+    const ChainHistory &h = direct.history;
+    int period = 0;
+    for (int candidate = 1; candidate <= 16 && period == 0; ++candidate) {
+      const auto n = static_cast<std::size_t>(candidate);
+      if (std::fabs(h.v_drum[400] - h.v_drum[400 - n]) < 1e-5 &&
+          std::fabs(h.v_drum[399] - h.v_drum[399 - n]) < 1e-5)
+        period = candidate;
+    }
+    EXPECT_EQ(period, point.period) << "k " << p.k << " D " << p.D << " omega " << p.omega;
+    EXPECT_EQ(direct.cycles.back().contact_share > 1.0 - 1e-9 && direct.cycles.back().breaks == 0,
+              point.regime == Regime::continuous_contact);
+    if (point.period == 1) {
+      EXPECT_NEAR(direct.cycles.back().F_contact_max, point.meter.peak_force, 1e-5 * point.meter.peak_force);
+      EXPECT_NEAR(direct.cycles.back().contact_share, point.meter.contact_share, 1e-4);
+    }
+  }
+  EXPECT_GT(judged, 7);
+}
+
+TEST(Regime, MeterValuesOfPeriodTwoAgreeWithAFineRecord) {
+  ChainParameters p = table1_case("II", Transition::A);
+  p.D = 0.1;
+  p.k = 30e6;
+  const RegimePoint point = judge_regime(p, 400);
+  ASSERT_EQ(point.period, 2);
+  DirectOptions options;
+  options.cycles = 300;
+  options.samples_per_cycle = 4000;
+  const ChainHistory h = solve_direct(p, options).history;
+  const std::array<double, 3> multiple = {0.5, 1.0, 2.0};
+  std::array<std::complex<double>, 3> sum{};
+  for (std::size_t i = h.size() - 1 - 8000; i < h.size() - 1; ++i)
+    for (std::size_t n = 0; n < 3; ++n)
+      sum[n] += h.a_drum[i] * std::exp(std::complex<double>(0.0, multiple[n] * p.omega * h.time[i]));
+  // A jump of the force lies between two samples: its time is known to half of their distance only.
+  EXPECT_NEAR(point.meter.cmv, 300.0 * std::abs(sum[2] / sum[1]), 0.5);
+  EXPECT_NEAR(point.meter.rmv, 100.0 * std::abs(sum[0] / sum[1]), 0.2);
+  EXPECT_GT(point.meter.rmv, 5.0);
+}
+
+// Near a period doubling the motion leaves the unstable orbit of period 1 so slowly that 300 cycles do not
+// show its period.
+TEST(Regime, ASlowDepartureFromAnUnstableOrbitIsNotAperiodic) {
+  ChainParameters p = table1_case("II", Transition::B);
+  p.k = 48e6;
+  p.D = 0.02 + 0.58 * 19 / 49;
+  const RegimePoint point = judge_regime(p, 300);
+  EXPECT_EQ(point.regime, Regime::period_2);
+  EXPECT_LT(point.multiplier, 1.0);
+}
+
+// A multiplier of -0.997: the motion alternates about its orbit of period 1, so that states two cycles apart
+// are much nearer to each other than successive ones. The direct solver has period 1 after 5000 cycles.
+TEST(Regime, ASlowlyShrinkingAlternationHasPeriodOne) {
+  ChainParameters p = table1_case("II", Transition::B);
+  p.k = 166221021.0;
+  p.D = 0.383008;
+  p.omega = 170.7256;
+  const RegimePoint point = judge_regime(p, 300);
+  EXPECT_EQ(point.regime, Regime::partial_uplift);
+  EXPECT_EQ(point.period, 1);
+  EXPECT_NEAR(point.multiplier, 0.99703, 1e-4);
+}
+
+TEST(RegimeMap, BoundariesLieWhereTheEventsOfTheMotionSay) {
+  MapGrid grid;
+  grid.chain.base = table1_case("II", Transition::B);
+  grid.x = axis_from_text("--x", "k:5e6:40e6:8", 100);
+  grid.y = axis_from_text("--y", "D:0.08:0.3:4", 100);
+  std::vector<RegimePoint> points;
+  std::vector<std::size_t> all(grid.size());
+  std::iota(all.begin(), all.end(), 0U);
+  judge_points<RegimePoint>(
+      all, 2, 5, [&](std::size_t point) { return grid.judged(point); },
+      [&](std::size_t, const std::vector<RegimePoint> &more) {
+        points.insert(points.end(), more.begin(), more.end());
+      });
+  ASSERT_EQ(points.size(), grid.size());
+  int losses = 0;
+  int doublings = 0;
+  for (const BoundaryPoint &point : find_boundaries(grid, points, 2)) {
+    const auto lasts = [&](double factor) {
+      const ChainSolver solver(grid.at(point.x * factor, point.y));
+      return pass(solver, steady_contact_state(solver.parameters()), 1).always_contact();
+    };
+    if (point.kind == "loss of contact") {
+      ++losses;
+      EXPECT_TRUE(lasts(1.0 - 1e-8)) << point.x;
+      EXPECT_FALSE(lasts(1.0 + 1e-8)) << point.x;
+    } else if (point.kind == "period doubling") {
+      ++doublings;
+    }
+  }
+  EXPECT_GE(losses, 4);
+  EXPECT_GE(doublings, 2);
+}
+
+TEST(RegimeMap, AnEccentricMomentMakesTheForceGrowWithTheFrequency) {
+  MapChain chain;
+  chain.me_re = 3.0;
+  EXPECT_DOUBLE_EQ(chain.with({{"omega", 200.0}}).Fw, 3.0 * 200.0 * 200.0);
+  EXPECT_DOUBLE_EQ(chain.with({{"me_re", 2.0}, {"omega", 100.0}}).Fw, 2.0 * 100.0 * 100.0);
+}
+
+TEST(RegimeMap, ASweepUpAndDownSeesCoexistingMotions) {
+  MapChain chain;
+  chain.base = table1_case("II", Transition::B);
+  chain.base.D = 0.1;
+  const Sweep found = sweep(chain, axis_from_text("--sweep", "k:8e6:30e6:23", 100), 200, 4);
+  EXPECT_EQ(found.samples.size(), 2U * 23U * 4U);
+  ASSERT_EQ(found.boundaries.size(), 2U);
+  EXPECT_EQ(found.boundaries[0].kind, "loss of contact");
+  EXPECT_NEAR(contact_margin(chain.with({{"k", found.boundaries[0].x}})), 0.0, 1e-3);
+  EXPECT_EQ(found.boundaries[1].kind, "period doubling");
+}
+
+// ---- the command ----
+
+class MapCommand : public drumlin::test::Tool {
+protected:
+  Outcome map(const std::vector<std::string> &words) const { return drumlin("map", words); }
+  static const std::vector<std::string> &few() {
+    static const std::vector<std::string> words = {"--x", "k:5e6:40e6:7", "--y", "D:0.1:0.5:5", "--out", "m"};
+    return words;
+  }
+};
+
+TEST_F(MapCommand, WritesPointsBoundariesAndPictures) {
+  well(map(few()));
+  const Table table = read_table(folder_ / "m/regimes.csv");
+  EXPECT_EQ(table.rows(), 35U);
+  EXPECT_TRUE(table.has("k [N/m]"));
+  EXPECT_TRUE(table.has("peak_force [N]"));
+  EXPECT_GT(read_table(folder_ / "m/boundaries.csv").rows(), 3U);
+  for (const char *name : {"regimes", "cmv", "rmv", "peak_force", "contact_share"})
+    EXPECT_TRUE(fs::is_regular_file(folder_ / "m" / (std::string(name) + ".png"))) << name;
+}
+
+TEST_F(MapCommand, ContinuesWhereItWasInterrupted) {
+  well(map(few()));
+  const fs::path file = folder_ / "m/regimes.csv";
+  const std::string whole = read_text(file);
+  std::size_t end = 0;
+  for (int line = 0; line < 11; ++line)
+    end = whole.find('\n', end) + 1;
+  write_files({{file, whole.substr(0, end + 17)}}); // ten points and a part of the next
+  EXPECT_TRUE(printed(well(map(few())), "10 of 35 points are there already"));
+  EXPECT_EQ(read_text(file), whole);
+}
+
+TEST_F(MapCommand, FillsGapsAndRefusesRowsOfNoMap) {
+  well(map(few()));
+  const fs::path file = folder_ / "m/regimes.csv";
+  const std::string whole = read_text(file);
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < whole.size(); begin = whole.find('\n', begin) + 1)
+    lines.push_back(whole.substr(begin, whole.find('\n', begin) + 1 - begin));
+  const auto text = [](const std::vector<std::string> &rows) {
+    std::string all;
+    for (const std::string &row : rows)
+      all += row;
+    return all;
+  };
+  const auto changed = [&](const std::function<void(std::vector<std::string> &)> &change) {
+    std::vector<std::string> rows = lines;
+    change(rows);
+    write_files({{file, text(rows)}});
+    return text(rows);
+  };
+  using Rows = std::vector<std::string>;
+  for (const std::function<void(Rows &)> &change : std::vector<std::function<void(Rows &)>>{
+           [](Rows &rows) { rows.erase(rows.begin() + 10, rows.begin() + 20); }, // in the middle
+           [](Rows &rows) { std::reverse(rows.begin() + 1, rows.end()); },
+           [](Rows &rows) { rows = {rows[0].substr(0, 20)}; }}) {
+    changed(change);
+    well(map(few()));
+    EXPECT_EQ(read_text(file), whole);
+  }
+  for (const auto &[change, message] : std::vector<std::pair<std::function<void(Rows &)>, std::string>>{
+           {[](Rows &rows) { rows.insert(rows.begin() + 3, rows[7]); }, "allowed: each once, or --fresh"},
+           {[](Rows &rows) { rows[5] = "1" + rows[5]; }, "allowed: a row of this call, or --fresh"},
+           {[](Rows &rows) { rows[5] = "1,2\n"; }, "the number of cells is '2'; allowed: 12"},
+           {[](Rows &rows) { rows[0].replace(rows[0].find("CMV"), 3, "CMX"); },
+            "the header of m/regimes.csv is"}}) {
+    const std::string before = changed(change);
+    const Outcome refused = map(few());
+    EXPECT_NE(refused.status, 0);
+    drumlin::test::expect_one_error(refused.output, "drumlin map: ");
+    EXPECT_TRUE(printed(refused, message));
+    EXPECT_EQ(read_text(file), before);
+  }
+}
+
+TEST_F(MapCommand, AnotherMapDoesNotReplaceOne) {
+  well(map(few()));
+  const std::string whole = read_text(folder_ / "m/regimes.csv");
+  std::vector<std::string> other = few();
+  other.insert(other.end(), {"--cycles", "200"});
+  const Outcome refused = map(other);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(printed(refused, "ERROR: drumlin map: --out is 'm'; allowed: "));
+  EXPECT_EQ(read_text(folder_ / "m/regimes.csv"), whole);
+  other.emplace_back("--fresh");
+  well(map(other));
+}
+
+TEST(MapAxis, MayHaveAUnit) {
+  const MapAxis plain = axis_from_text("--x", "k:10e6:150e6:40:log", 100),
+                mega = axis_from_text("--x", "k:10:150:40:MN/m:log", 100);
+  EXPECT_EQ(mega.from, plain.from);
+  EXPECT_EQ(mega.to, plain.to);
+  EXPECT_TRUE(mega.log);
+  EXPECT_EQ(axis_from_text("--x", "m2:2:4:3:t", 100).to, 4000.0);
+  EXPECT_EQ(axis_from_text("--x", "Fw:0:256:3:kN", 100).to, 256e3);
+}
+
+TEST_F(MapCommand, ASweepIsWritten) {
+  well(map({"--sweep", "k:8e6:25e6:9", "--D", "0.1", "--out", "s"}));
+  EXPECT_EQ(read_table(folder_ / "s/sweep.csv").rows(), 2U * 9U * 32U);
+  EXPECT_TRUE(fs::is_regular_file(folder_ / "s/sweep.png"));
+}
+
+} // namespace
