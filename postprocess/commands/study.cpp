@@ -174,8 +174,8 @@ void run_plan(const Arguments &arguments) {
   Plan plan = read_plan(file);
   std::vector<GivenPath> read = {{"NAME", file}};
   for (const fs::path &deck : decks_of(plan))
-    for (const fs::path &part : deck_files(deck))
-      read.push_back({"deck", part});
+    for (const fs::path &included : deck_files(deck))
+      read.push_back({"deck", included});
   keep_apart(read, {{"--out", options.out, true}});
   if (balls > 0 && !plan.can_be_scaled()) throw UsageError(refusal("--balls", balls, what_can_be_scaled));
   if (balls > 0) plan = plan.with_balls(balls);
