@@ -47,17 +47,16 @@ void record_command(LAMMPS *lmp, int narg, char **arg) {
   rows.emplace_back("command", command_line());
   LAMMPS_NS::FixOutputs *outputs = LAMMPS_NS::FixOutputs::of(lmp);
   if (outputs != nullptr) rows.emplace_back(ended_name, ended_not);
-  int failed = 0;
+  std::string fault;
   if (lmp->comm->me == 0) {
     std::string text = "name,value\n";
     for (const auto &[key, value] : rows)
       text += record_row(key, value);
-    failed = !is_output_file(name) || !write_whole_file(name, text);
+    if (!is_output_file(name) || !write_whole_file(name, text))
+      fault = "file is '" + name + "', which cannot be written; allowed: " + output_name_allowed +
+              ", on a disk with room";
   }
-  MPI_Bcast(&failed, 1, MPI_INT, 0, lmp->world);
-  if (failed)
-    in.fail("file is '" + name + "', which cannot be written; allowed: " + output_name_allowed +
-            ", on a disk with room");
+  engine::stop_on_fault(lmp, "drumlin/record", fault);
   if (outputs != nullptr) outputs->record(name);
 }
 

@@ -17,8 +17,6 @@ namespace {
 
 using LAMMPS_NS::LAMMPS;
 
-constexpr const char *rules = "a rule of drumlin/check, any, words or noted";
-
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -125,7 +123,6 @@ void declare(LAMMPS *lmp, const VariableLine &line, const std::string &standard,
 
 /// Declares the variables of a table that are not declared yet.
 void declare_table(LAMMPS *lmp, const std::string &file, const std::vector<std::string> &groups) {
-  const std::string command = "drumlin/variables";
   std::string text, fault;
   if (lmp->comm->me == 0) try {
       text = variable_table_text(file);
@@ -133,11 +130,11 @@ void declare_table(LAMMPS *lmp, const std::string &file, const std::vector<std::
     } catch (const std::invalid_argument &error) {
       fault = error.what();
     }
-  engine::stop_on_fault(lmp, command, fault);
+  engine::stop_on_fault(lmp, "drumlin/variables", fault);
   const DeckVariables variables(lmp);
   for (const VariableLine &line : read_variable_table(engine::from_rank_0(lmp, text), file, groups)) {
     if (variables.is_declared(line.name)) continue;
-    const std::string where = fmt::format("{}: line {} of '{}'", command, line.line, file);
+    const std::string where = fmt::format("drumlin/variables: line {} of '{}'", line.line, file);
     for (const std::string &formula : {line.standard, line.rule})
       if (const std::string unknown = unknown_in(variables, formula); !unknown.empty())
         engine::stop(lmp, fmt::format("{}: formula is '{}', of an unknown variable {}; allowed: variables "
@@ -155,7 +152,7 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
   line.name = in.word("name", "the variable's name");
   const std::string of = " of variable " + line.name;
   line.standard = in.word("default value" + of);
-  line.rule = in.word("rule" + of, rules);
+  line.rule = in.word("rule" + of, "a rule of drumlin/check, any, words or noted");
   line.unit = in.word("unit" + of, "a unit, or -");
   line.group = in.word("group" + of, "a word");
   line.meaning = in.word("meaning" + of, "a text in quotes");

@@ -80,7 +80,7 @@ TextDumpSteps::TextDumpSteps(fs::path file) : file_(std::move(file)), in_(file_)
   if (!in_) fail(file_, "cannot be read");
   if (!read_line()) fail_before_rows();
   if (!begins(line_, "ITEM: ") && (whole_line_ || !begins("ITEM: ", line_.c_str())))
-    fail(file_, "is no text dump of LAMMPS; allowed: one as inputs/bed/dumps.lammps makes it");
+    fail(file_, "is no text dump of LAMMPS; allowed: one as inputs/bed/dumps.on makes it");
   pending_ = true;
 }
 
@@ -126,7 +126,7 @@ std::size_t TextDumpSteps::read_header(TextDump &dump) {
     } // any other line belongs to the box, the units or the time
   }
   if (!has_step || !has_count || dump.names.empty())
-    fail(file_, "is no text dump of LAMMPS; allowed: one as inputs/bed/dumps.lammps makes it");
+    fail(file_, "is no text dump of LAMMPS; allowed: one as inputs/bed/dumps.on makes it");
   return announced;
 }
 
@@ -248,7 +248,7 @@ private:
     if (array == nullptr || array->GetNumberOfComponents() != static_cast<int>(components) ||
         array->GetNumberOfTuples() != static_cast<vtkIdType>(rows_))
       fail(file_, fmt::format("array '{}' with {} rows of {} numbers is missing; allowed: a dump as "
-                              "inputs/bed/dumps makes it",
+                              "inputs/bed/dumps.on makes it",
                               name, rows_, components));
     for (std::size_t row = 0; row < rows_; ++row)
       for (std::size_t c = 0; c < components; ++c)

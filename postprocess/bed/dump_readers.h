@@ -47,8 +47,8 @@ struct StepDump {
 /// The dumped steps of a run's dump folder: balls in VTK's files (*.vtp) of LIGGGHTS or text (*.dump) of
 /// LAMMPS, contacts in text. None without such a folder.
 std::map<long, StepDump> dumped_steps(const std::filesystem::path &dumps);
-/// Balls from a dump of the engine (inputs/bed/dumps), in order of their ids. Positions of LIGGGHTS have the
-/// 7 digits of the file's floats.
+/// Balls from a dump of the engine (inputs/bed/dumps.on), in order of their ids. Positions of LIGGGHTS have
+/// the 7 digits of the file's floats.
 std::vector<Ball> read_ball_dump(const std::filesystem::path &file);
 /// Contacts of these balls from a dump of fix contact/local, the lower id first, in order of the ids; those
 /// with walls in order of the balls.
