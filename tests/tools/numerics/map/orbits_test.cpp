@@ -2,10 +2,11 @@
 // onsets against closed forms and against the direct solver.
 #include "chain/direct_solver.h"
 #include "map/orbits.h"
+#include "tests/support/eigenvalues.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +84,7 @@ TEST(Orbits, MultipliersOfUnbrokenContactAreExponentialsOfItsRoots) {
     Eigen::Matrix4d a;
     a << 0, 1, 0, 0, -(p.k + p.k23) / p.m2, -(p.damping() + p.c23) / p.m2, p.k23 / p.m2, p.c23 / p.m2, 0, 0,
         0, 1, p.k23 / p.m3, p.c23 / p.m3, -p.k23 / p.m3, -p.c23 / p.m3;
-    const Eigen::Vector4cd roots = a.eigenvalues();
+    const Eigen::VectorXcd roots = oracle::eigenvalues_of(a);
     for (const std::complex<double> multiplier : orbit->multipliers) {
       double nearest = 1.0;
       for (Eigen::Index i = 0; i < 4; ++i)
