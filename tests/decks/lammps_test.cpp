@@ -173,7 +173,9 @@ INSTANTIATE_TEST_SUITE_P(
                {{"rolling", "epsd2"}, {"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
         Bounce{"rolling_region", {{"rolling", "epsd2"}, {"walls", "block"}, {"mu_r", "0.05"}}},
         Bounce{"heavy_dashpots", // c dt/m near 1: they are solved for together. 1e-15 after the first impacts
-               {{"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}, {}, 1e-6}),
+               {{"D", "40"}, {"tangential", "off"}, {"mu", "-1"}},
+               {},
+               1e-6}),
     bounce_name);
 
 // The Hertz law's dashpot has no value at a negative overlap: a contact that has ended has no force.
