@@ -816,7 +816,7 @@ bool Fit<Model>::equations() {
       squares_[seen.sensor] += seen.residual * seen.residual;
     });
     if (!followed) return false;
-    for (const std::size_t of_rate : {0, 1}) {
+    for (const std::size_t of_rate : {std::size_t{0}, std::size_t{1}}) {
       if constexpr (Model::tilts) {
         Line line{};
         line[4 + of_rate] = 1.0;

@@ -37,6 +37,17 @@ inline std::string word(std::istringstream &in) {
   return std::getline(in, text, '"'), text;
 }
 
+/// Of a line that cannot be read.
+inline std::string line_fault(std::size_t number, const std::string &file, const std::string &line,
+                              const std::string &allowed) {
+  return "line " + std::to_string(number) + " of '" + file + "' is '" + roller_file::shown(line) +
+         "'; allowed: " + allowed;
+}
+
+inline std::string group_fault(const std::string &group, const std::string &file) {
+  return "group is '" + group + "'; allowed: one of '" + file + "'";
+}
+
 } // namespace variable_table
 
 /// The text of a table. Throws std::invalid_argument if it cannot be read.
@@ -62,8 +73,7 @@ inline std::vector<VariableLine> read_variable_table(const std::string &text, co
   for (std::string line; std::getline(lines, line);) {
     ++number;
     const auto fail = [&](const std::string &allowed) {
-      throw std::invalid_argument("line " + std::to_string(number) + " of '" + file + "' is '" +
-                                  roller_file::shown(line) + "'; allowed: " + allowed);
+      throw std::invalid_argument(variable_table::line_fault(number, file, line, allowed));
     };
     line.erase(line.find_last_not_of(" \t\r") + 1);
     if (line.empty() || line[0] == '#') continue;
@@ -84,7 +94,7 @@ inline std::vector<VariableLine> read_variable_table(const std::string &text, co
   }
   for (const std::string &group : groups)
     if (std::none_of(all.begin(), all.end(), [&](const VariableLine &one) { return one.group == group; }))
-      throw std::invalid_argument("group is '" + group + "'; allowed: one of '" + file + "'");
+      throw std::invalid_argument(variable_table::group_fault(group, file));
   std::vector<VariableLine> wanted;
   for (const VariableLine &one : all)
     if (groups.empty() || std::find(groups.begin(), groups.end(), one.group) != groups.end())
