@@ -10,8 +10,8 @@ namespace drumlin {
 void variable_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/variables FILE [GROUP ...]: declares the variables of a table.
-/// drumlin/variables: ends the run if the command line gives a variable that is not declared, or a value that
-/// the engine's parser would change, or if a declared variable breaks its rule.
+/// drumlin/variables: ends the run if the command line gives a variable that the deck does not declare, or a
+/// value with signs that the engine's parser does not take as they stand, or if a value breaks its rule.
 void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/check NAME VALUE RULE ...: ends the run if the value of a variable breaks a rule.

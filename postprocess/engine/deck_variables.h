@@ -1,4 +1,4 @@
-// The variables of a deck, read from its tables and its lines `drumlin/variable` without a run.
+// The variables that a deck declares, by tables and by lines `drumlin/variable`. No engine is run for it.
 #pragma once
 
 #include "files/variable_table.h"

@@ -16,7 +16,7 @@ struct Part {
 struct RunOptions {
   int jobs = 1;           ///< runs at the same time
   bool keep = false;      ///< all files of each run
-  bool page_only = false; ///< no run is made; what is missing is told
+  bool page_only = false; ///< make no run; print which are missing
 };
 
 /// Writes into a folder that a ResumedFolder holds:

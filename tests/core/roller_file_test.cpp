@@ -192,7 +192,8 @@ TEST_F(RollerFile, RefusesWhatCannotBeRightInOneLine) {
   EXPECT_THROW(read(""), std::invalid_argument);
 }
 
-// Thousands apart, and commas, which the range that rollers have tells from decimal signs.
+// Blanks may separate thousands, and a comma may do so or be the decimal sign: the range that rollers have
+// tells.
 TEST_F(RollerFile, ReadsNumbersAsDataSheetsWriteThem) {
   const std::string rest = "frame_mass 3 t\nfrequency 30 Hz\nforce 250 kN\n";
   EXPECT_EQ(read("drum_mass 12 540 kg\n" + rest).m2, 12540.0);
@@ -206,12 +207,13 @@ TEST_F(RollerFile, ReadsNumbersAsDataSheetsWriteThem) {
   }
   for (const char *number : {"1,234,567 kg", "1.2,3 t", "1,2.3 t"}) // and what is neither
     EXPECT_NE(fault(std::string("drum_mass ") + number + "\n" + rest)
-                  .find(std::string("is '") + number + "'; allowed: a number whose comma is clear, or none"),
+                  .find(std::string("is '") + number + "'; allowed: a number whose decimal sign is a point"),
               std::string::npos)
         << number;
-  // 150 or 0.150 1/min, neither of a roller; 1,250 m is a width, 1250 m none.
+  // Of 150 and 0.150 vibrations a minute no roller has either.
   EXPECT_NE(fault("drum_mass 4 t\nframe_mass 3 t\nfrequency 0,150 1/min\nforce 250 kN\n").find("comma"),
             std::string::npos);
+  // A drum may be 1.25 m wide, but not 1250 m.
   EXPECT_EQ(read("width 1,250 m\ndrum_mass 4 t\n" + rest).width, 1.25);
 }
 

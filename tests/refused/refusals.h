@@ -1,5 +1,5 @@
-// The tables of mistakes in tests/refused: a file for each command or style in `engine`, one for each deck of
-// inputs in `decks`, and one for each subcommand of drumlin in `tools`.
+// The tables of mistakes in tests/refused. `engine` has a file for each command or style of the plugin,
+// `decks` one for each deck of inputs, `tools` one for each subcommand of drumlin.
 //
 //     # a comment
 //     command fix guard:                  what the error begins with, until the next such line
@@ -7,24 +7,25 @@
 //     @ every 0 | keyword every is '0' ... a whole number from 1   {two ranks}
 //     deck bed/in.bed                     the rows below are variables of this deck, `NAME VALUE, NAME VALUE`
 //
-// A row has lines of the host deck, and behind " | ", which may begin a line of its own after four blanks,
-// the parts of the one error line in their order, with " ... " between them; "ERROR: " before them: without
-// the command. A message goes on in lines that begin with four blanks. A line `pair_style` at the beginning
-// of a row, with `property NAME VALUE` for all pairs and `material NAME VALUE` for all types below it,
-// replaces the host's. \n is the end of a line within a value, INPUTS the folder of the decks, LONG a word of
-// 5000 letters. Marks at the end:
+// A row has two sides, with " | " between them. On the left are lines of a deck, which are added to the host
+// deck. On the right is the error line that the run must end with: parts of it in their order, with " ... "
+// where other text may stand. It begins with the command named above, or with "ERROR: " if it names none. A
+// long right side begins a line of its own, and goes on in further ones; these lines begin with four blanks.
+// A line `pair_style` at the beginning of a row, with `property NAME VALUE` for all pairs and `material NAME
+// VALUE` for all types below it, replaces the host's. \n is the end of a line within a value, INPUTS the
+// folder of the decks, LONG a word of 5000 letters. Marks at the end:
 //     {two ranks}       tried on two ranks, too
 //     {in the run}      shows in the run, after the output files were opened
 //     {engine's words}  the engine's own check comes first; its text does not say what is allowed
 //     {bare}            the host's properties are not added to those of the row
 // A file NAME.lammps is for the host deck of LAMMPS, which has no pair style.
 //
-// A row of `tools` has the words of a command line, '' an empty one. Its error line begins with the command
-// and the message; a message that begins with "... " stands anywhere behind the command. Lines between the
-// rows:
-//     file NAME TEXT                      a file of the rows below, which may go on after four blanks in the
-//                                         next line; without TEXT: there no longer
-//     made NAME chain                     the folder of a run of the chain, also impact, bed
+// In `tools` the left side is a command line; '' is an empty word. The error line begins with the command and
+// the right side, or has the right side anywhere behind the command if that begins with "... ". Lines between
+// the rows make or remove files that the rows below them read:
+//     file NAME TEXT                      writes this text; it may go on in lines that begin with four blanks
+//     file NAME                           removes the file
+//     made NAME chain                     makes the folder of a run of the chain; also impact, bed
 // The exit status is 2; {status 1} where the command line is right, but what it names is not.
 //
 // With DRUMLIN_REWRITE=1 a row of `tools` whose error line is another gets that line.

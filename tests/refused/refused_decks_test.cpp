@@ -34,7 +34,7 @@ std::vector<std::string> decks() {
   return all;
 }
 
-/// A rule with INPUTS in place of the folder of the decks.
+/// A rule in which the folder of the decks, which differs between checkouts, is replaced by the word INPUTS.
 std::string in_any_folder(std::string rule) {
   const std::string folder = inputs.string();
   if (const std::size_t at = rule.find(folder); at != std::string::npos)
@@ -118,8 +118,8 @@ TEST(RefusedDecks, KeepTheirOwnVariables) {
     }
 }
 
-/// The commands of a deck without those whose words are an engine's own: how it starts, and the contact law.
-std::vector<std::string> without_words_of_an_engine(const std::string &deck) {
+/// The commands of a deck, without those of engine-specific syntax: start of the deck, contact law.
+std::vector<std::string> without_engine_specific(const std::string &deck) {
   const std::set<std::string> own = {"plugin",      "atom_style", "communicate",
                                      "comm_modify", "pair_style", "pair_coeff"};
   std::vector<std::string> commands;
@@ -139,12 +139,12 @@ std::vector<std::string> without_words_of_an_engine(const std::string &deck) {
   return commands;
 }
 
-// Decks that are complete for each engine are the same but for the words of the engines.
-TEST(RefusedDecks, OfBothEnginesAreTheSameButForTheirWords) {
+// Decks that are complete for each engine differ in engine-specific syntax only.
+TEST(RefusedDecks, OfBothEnginesDifferInEngineSpecificSyntaxOnly) {
   for (const std::string deck : {"chain/in.chain", "chain/in.way", "chain/in.impact"}) {
-    const std::vector<std::string> commands = without_words_of_an_engine(deck);
+    const std::vector<std::string> commands = without_engine_specific(deck);
     EXPECT_GT(commands.size(), 30u) << deck;
-    EXPECT_EQ(commands, without_words_of_an_engine(deck + ".lammps")) << deck;
+    EXPECT_EQ(commands, without_engine_specific(deck + ".lammps")) << deck;
   }
 }
 

@@ -41,7 +41,7 @@ std::map<fs::path, std::string> content(const fs::path &folder) {
   return files;
 }
 
-/// The words of a command line; one with blanks, or an empty one, is in single quotes.
+/// The words of a command line. Single quotes surround a word with blanks, and an empty one.
 std::vector<std::string> words_of_row(const std::string &row) {
   std::vector<std::string> all = {DRUMLIN_TOOLS, ""};
   bool quoted = false;

@@ -1,5 +1,5 @@
 #pragma once
-/// Eigen's solver for eigenvalues, which takes long to compile, in a source of its own.
+// Eigenvalues by Eigen. Its solver takes long to compile, so it is compiled once, in eigenvalues.cpp.
 
 #include <Eigen/Core>
 

@@ -1,4 +1,4 @@
-// A folder of its own for each test, in which it calls the commands of drumlin.
+// For tests that call commands of drumlin: each test has a folder of its own, in which they run.
 #pragma once
 
 #include "tests/support/engine_runs.h"

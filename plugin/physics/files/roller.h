@@ -181,13 +181,14 @@ inline std::optional<double> decimal(const std::string &text) {
   return value;
 }
 
-/// Whether a text has three digits and nothing else.
+/// Whether a text is a group of three digits, as they stand between signs for thousands.
 inline bool is_group(const std::string &text) {
   return text.size() == 3 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// A number without its comma, which is the decimal sign; before three digits it may stand between thousands,
-/// too: then the one counts that rollers have. Nothing if rollers may have both or have neither.
+/// A number that has a comma, with a point as decimal sign. The comma is the decimal sign, or, before three
+/// digits, may separate thousands: then that reading counts which rollers have. Nothing if they may have both
+/// or have neither.
 inline std::optional<std::string> without_comma(const std::string &number, const Quantity &known,
                                                 double factor) {
   const std::size_t comma = number.find(',');
@@ -274,7 +275,7 @@ inline void Lines::add(const std::string &text, const std::string &where) {
   const std::string both = written + (unit.empty() ? "" : " ") + unit;
   if (number.find(',') != std::string::npos && unit_of != known->units.end()) {
     const std::optional<std::string> read = without_comma(number, *known, unit_of->factor);
-    if (!read) fail(name + " in " + where, both, "a number whose comma is clear, or none");
+    if (!read) fail(name + " in " + where, both, "a number whose decimal sign is a point");
     number = *read;
     warnings.push_back(name + " in " + where + " of '" + file + "' is '" + both + "', read as " + number +
                        (unit.empty() ? "" : " ") + unit);

@@ -19,7 +19,7 @@
 
 namespace drumlin {
 
-/// A variable as a line of a table, or of drumlin/variable, declares it.
+/// What one line of a table, or one command drumlin/variable, declares.
 struct VariableLine {
   std::string name, standard, unit, rule, group, meaning;
   std::size_t line = 0; ///< of the table, from 1
@@ -37,13 +37,14 @@ inline std::string word(std::istringstream &in) {
   return std::getline(in, text, '"'), text;
 }
 
-/// Of a line that cannot be read.
+/// The error text for a line that cannot be read.
 inline std::string line_fault(std::size_t number, const std::string &file, const std::string &line,
                               const std::string &allowed) {
   return "line " + std::to_string(number) + " of '" + file + "' is '" + roller_file::shown(line) +
          "'; allowed: " + allowed;
 }
 
+/// The error text for a group that no line has.
 inline std::string group_fault(const std::string &group, const std::string &file) {
   return "group is '" + group + "'; allowed: one of '" + file + "'";
 }
@@ -64,7 +65,7 @@ inline std::string variable_table_text(const std::string &file) {
 
 /// The lines of a table; one that begins with # is a comment. Throws std::invalid_argument with "line N of
 /// 'FILE' is 'TEXT'; allowed: ...".
-/// \param groups those that are wanted; empty: all
+/// \param groups whose variables are returned; empty: those of all
 inline std::vector<VariableLine> read_variable_table(const std::string &text, const std::string &file,
                                                      const std::vector<std::string> &groups = {}) {
   std::vector<VariableLine> all;

@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The settings of a calibration whose engine cannot be started: masses, bond and force are divided by the
-// width of the drum, 2 m. Computed by hand: a force of 250 kN at 30 Hz is one of 302.5 kN at 33 Hz; k23 =
-// 1500 kg (2 pi 4.82 Hz)^2.
+// The settings that a calibration writes before it starts an engine, which this test does not have: masses,
+// bond and force are divided by the width of the drum, 2 m. Computed by hand: a force of 250 kN at 30 Hz is
+// one of 302.5 kN at 33 Hz; k23 = 1500 kg (2 pi 4.82 Hz)^2.
 TEST(CalibrateCommand, GivesABedTheRollerPerMetre) {
   const Scratch scratch;
   post::write_files(

@@ -262,7 +262,8 @@ TEST_P(Contract, OneCallWritesAtATime) {
   expect_no_leavings();
 }
 
-// A limit on the size of files replaces a full disk; `cat` has none for what the command prints.
+// A full disk is imitated by a limit on the size of files. What the command prints goes through `cat`, which
+// has no such limit.
 TEST_P(Contract, OnAFullDiskItIsAnErrorAndEarlierResultsStay) {
   if (!is(Results::rows)) well(call());
   const auto before = content(folder_);

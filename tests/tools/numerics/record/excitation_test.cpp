@@ -280,8 +280,8 @@ TEST(Excitation, LeavesOutSpuriousPulses) {
   }
 }
 
-// A frequency that goes up and down by 0.5 %: the pulses follow the angle.
-// Where a revolution takes nearly a whole number of samples, edges wander between two of them and come back.
+// If a revolution takes nearly a whole number of samples, the place of an edge between two samples drifts
+// from revolution to revolution and comes back. That is no drift of the exciter.
 TEST(Excitation, DoesNotFollowEdgesThatSamplesMove) {
   Roller roller;
   const double rate = 180.03 * roller.frequency;
@@ -299,6 +299,7 @@ TEST(Excitation, DoesNotFollowEdgesThatSamplesMove) {
   EXPECT_LT(record.phase_within, 1.5 * degree); // a sample has 2 degrees
 }
 
+// A frequency that goes up and down by 0.5 %: the pulses follow the angle.
 TEST(Excitation, FollowsADriftByPulses) {
   Roller roller;
   constexpr double rate = 2000.0, swing = 0.4;
