@@ -117,6 +117,34 @@ TEST(MotionFit, IntervalsContainTheTruth) {
   EXPECT_LT(half_widths[half_widths.size() / 2], 1e-3);
 }
 
+// A soil that pulls (A) can look like flights of a drum with a smaller exciter's force. Such a record is
+// taken, since the whole motion follows it with the force that is said. A drum that does fly, with another
+// force than is said, is refused.
+TEST(MotionFit, FollowsARecordThatSeemsToHaveAnotherForce) {
+  const auto settled = [](const ChainParameters &p, double force) {
+    std::mt19937_64 random(4);
+    Record record = measured(p, 78, 18, 1.0, random).record;
+    RecordOptions options;
+    record.omega = options.omega = p.omega;
+    options.me_re = force * p.Fw / (p.omega * p.omega);
+    record.phase = options.phase = 0.0;
+    record.Fw = force * p.Fw;
+    settle_excitation(record, options);
+    EXPECT_FALSE(record.doubt.empty());
+    EXPECT_THROW(refuse_doubtful(record), std::runtime_error); // as `meter` does, which fits no motion
+    return record;
+  };
+  RecordSetting setting;
+  setting.phase_within = 3.0 * M_PI / 180.0;
+  ChainParameters pulls = roller(64e6, 0.412, 28.29, Transition::A);
+  pulls.Fw = 4.1577 * pulls.omega * pulls.omega;
+  const LawEstimate law = identify_record(settled(pulls, 1.0), setting).whole.law;
+  EXPECT_NEAR(law.k.mean, pulls.k, 3.0 * law.k.half_width);
+  EXPECT_LT(law.k.half_width, 0.1 * pulls.k);
+  EXPECT_THROW(identify_record(settled(roller(60e6, 0.2, 30.0, Transition::B), 1.3), setting),
+               std::runtime_error);
+}
+
 // Soils on which contact is hardly lost, or not at all, with a phase that is known to 3 degrees, and noise of
 // all sizes: the intervals contain what else fits. Gross errors would be of tens of half widths.
 TEST(MotionFit, IntervalsContainTheTruthWhereContactIsHardlyLost) {
