@@ -211,7 +211,8 @@ TEST_F(RollerFile, ReadsNumbersAsDataSheetsWriteThem) {
               std::string::npos)
         << number;
   // Of 150 and 0.150 vibrations a minute no roller has either.
-  EXPECT_NE(fault("drum_mass 4 t\nframe_mass 3 t\nfrequency 0,150 1/min\nforce 250 kN\n").find("comma"),
+  EXPECT_NE(fault("drum_mass 4 t\nframe_mass 3 t\nfrequency 0,150 1/min\nforce 250 kN\n")
+                .find("is '0,150 1/min'; allowed: a number whose decimal sign is a point"),
             std::string::npos);
   // A drum may be 1.25 m wide, but not 1250 m.
   EXPECT_EQ(read("width 1,250 m\ndrum_mass 4 t\n" + rest).width, 1.25);
