@@ -216,6 +216,7 @@ void run_two_sided(const Arguments &arguments, const RecordSetting &setting, con
                                      changed.tolerances = record.tolerances;
                                      RecordSetting same = setting;
                                      same.search = found.motion.any_force;
+                                     same.force = found.motion.force.mean;
                                      return identify_two_sided(changed, same);
                                    });
   for (std::size_t half = 0; half < parts.size(); ++half)

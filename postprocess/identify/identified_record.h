@@ -25,6 +25,9 @@ struct RecordSetting {
   int window = 10; ///< cycles, 4 or more; 0: no windows
   /// As in MotionSetting.
   bool search = true;
+  /// Of both ends: the exciter's force over that which is said from which the motion is followed; not given:
+  /// that which is said and, if it is known to 1 % or worse, both its limits.
+  std::optional<double> force;
 };
 
 /// The law of a window of cycles.

@@ -1641,6 +1641,7 @@ std::optional<MotionFit> fit_motion(const Record &record, const std::array<HalfS
     model.c[j] = std::max(law.c.mean, 1e-3 * std::sqrt(model.k[j] * model.m2));
     model.place[j] = ends.contacts[j].y;
   }
+  model.force = setting.force;
   model.sensor = {-ends.sensor, ends.sensor};
   model.I2 = ends.drum_inertia;
   model.I3 = ends.frame_inertia;

@@ -63,6 +63,7 @@ struct MotionSetting {
   std::optional<double> phase_within;
   /// Half the width within which the exciter's force over that which is said is known [-].
   double force_within = 0.0;
+  double force = 1.0; ///< of the exciter over that which is said, from which the fit starts [-]
   /// Also from a softer and a harder soil, and with another force, if nothing follows the record to its
   /// noise.
   bool search = true;

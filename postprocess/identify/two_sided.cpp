@@ -50,6 +50,16 @@ std::array<HalfStart, 2> single_contacts(const Record &record, const RecordSetti
   return found;
 }
 
+/// Forces of the exciter over that which is said from which the motion is followed: a force that is not
+/// well known has more than one valley, and the deepest counts.
+std::vector<double> forces_to_start_from(const Record &record, const RecordSetting &setting) {
+  constexpr double well_known = 0.01;
+  const double within = record.tolerances.me_re;
+  if (setting.force) return {*setting.force};
+  if (within < well_known || record.excitation_read) return {1.0};
+  return {1.0, 1.0 - within, 1.0 + within};
+}
+
 [[noreturn]] void refuse(const Record &record, const std::string &what, const std::string &found,
                          const std::string &allowed) {
   csv_fault(record.file, 0, {}, refusal(what, found, allowed));
@@ -84,17 +94,29 @@ TwoSidedRecord identify_two_sided(const Record &record, const RecordSetting &set
   result.file = record.file;
   result.cycles = record.cycles();
   result.frame_computed = record.frame_computed;
-  const DrumSignals whole = signals_of(record, true);
+  MotionSetting known;
   const double phase_within =
       std::max({setting.phase_within, record.phase_within, 1.5 * record.phase_half_width});
-  if (progress) progress("the contacts of each half");
-  const std::array<HalfStart, 2> contacts = single_contacts(record, setting, whole, phase_within);
-  MotionSetting known;
   if (record.phase_half_width == 0.0) known.phase_within = phase_within;
   known.force_within = record.tolerances.me_re;
   known.search = setting.search;
-  if (progress) progress("the motion from contact to contact");
-  const std::optional<MotionFit> motion = fit_motion(record, contacts, known);
+  std::optional<MotionFit> motion;
+  std::array<HalfStart, 2> contacts;
+  for (const double force : forces_to_start_from(record, setting)) {
+    if (progress) progress("the contacts of each half");
+    Record other = record; // single contacts take the force as it is said
+    if (force != 1.0) {
+      *other.Fw *= force;
+      compute_excitation(other);
+    }
+    std::array<HalfStart, 2> starts = single_contacts(other, setting, signals_of(other, true), phase_within);
+    known.force = force;
+    if (progress) progress("the motion from contact to contact");
+    std::optional<MotionFit> fit = fit_motion(record, starts, known);
+    if (motion && !(fit && fit->is_noise >= motion->is_noise && fit->cost < motion->cost)) continue;
+    motion = std::move(fit);
+    contacts = std::move(starts);
+  }
   constexpr double as_noise = 1e-4; // of the drum's acceleration
   const double left = motion ? motion->residual / rms(record.a_left) : 1.0;
   if (!motion || !motion->follows(left)) refuse_doubtful(record);
