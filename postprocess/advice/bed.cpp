@@ -165,6 +165,10 @@ std::vector<std::string> scene_commands(const Scene &scene) {
                 ? fmt::format(":{0}:{1}", layer.packing.sieve_name,
                               layer.packing.sieve_name.substr(0, layer.packing.sieve_name.find('-', 1)))
                 : "");
+  for (const BedLayer &layer : scene.bed->layers)
+    if (layer.pouring) bed += fmt::format(" --relative-density {}", layer.pouring->relative_density);
+  for (const Spot &spot : scene.bed->spots)
+    bed += fmt::format(" --spot {}:{}", spot.from, spot.to);
   bed += fmt::format(" --width {}", packing.width);
   if (packing.depth > 0.0) bed += fmt::format(" --depth {}", packing.depth);
   if (packing.height > 0.0) bed += fmt::format(" --height {}", packing.height);

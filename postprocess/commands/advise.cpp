@@ -81,9 +81,34 @@ void judge_within(const std::string &text, BedQuestion &request) {
                                          settlement ? ", or a settlement per cycle, as 2mm" : "")));
 }
 
+/// What answers a question, and the study of beds that has measured it.
+struct Question {
+  const char *name, *quantity, *study;
+};
+constexpr std::array<Question, 5> questions = {{{"force", "force", "study/fidelity"},
+                                                {"acceleration", "acceleration", "study/fidelity"},
+                                                {"settlement", "settlement", "study/fidelity"},
+                                                {"stiffness", "k", "study/fidelity"},
+                                                {"density", "lift_gain", "study/drive"}}};
+
+const Question &question_of(const std::string &name) {
+  const auto *const found =
+      std::find_if(questions.begin(), questions.end(), [&](const Question &one) { return name == one.name; });
+  if (found == questions.end())
+    throw UsageError(refusal("--question", name, "force, acceleration, settlement, stiffness, density"));
+  return *found;
+}
+
+/// The quantity of an answered question: the study has it.
+const Quantity &quantity_of(const BedExperiment &experiment, const BedQuestion &request) {
+  const std::vector<Quantity> &all = experiment.plan.quantities;
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const Quantity &one) { return one.name == request.quantity; });
+}
+
 /// How many beds of each scene give its own mean within the request, and the time that they take.
 void tell_scatter(const BedExperiment &experiment, const BedQuestion &request) {
-  const Quantity &quantity = *bed_quantity(request.quantity);
+  const Quantity &quantity = quantity_of(experiment, request);
   fmt::print(
       "  beds       that give the mean of a scene within {:g} {}, in brackets if its scatter is at the "
       "ends of its own 95 % interval, and their processor time; mean and scatter of the seeds "
@@ -112,12 +137,12 @@ void tell_scatter(const BedExperiment &experiment, const BedQuestion &request) {
 
 void run_bed(const Arguments &arguments) {
   BedQuestion request;
-  request.name = choice_option("--question", arguments.question.value_or(""),
-                               {"force", "acceleration", "settlement", "stiffness"});
-  request.quantity = request.name == "stiffness" ? "k" : request.name;
+  const Question &question = question_of(arguments.question.value_or(""));
+  request.name = question.name;
+  request.quantity = question.quantity;
   judge_within(arguments.within.value_or("10%"), request);
   const BedExperiment experiment = read_bed_experiment(arguments.from ? path_option("--from", *arguments.from)
-                                                                      : input_file("study/fidelity"));
+                                                                      : input_file(question.study));
   const BedAdvice advice = advise_bed(experiment, request);
   const double scale = request.absolute ? 1e3 : 100.0;
   const int decimals = request.absolute ? 1 : 0;
@@ -127,7 +152,7 @@ void run_bed(const Arguments &arguments) {
   fmt::print("{}: {}\n", advice.scene->name,
              complete ? "all its parts are needed: no cheaper scene is known to be within the error"
                       : advice.differs);
-  fmt::print("  for        {} within {:g} {}\n", bed_quantity(request.quantity)->label,
+  fmt::print("  for        {} within {:g} {}\n", quantity_of(experiment, request).label,
              scale * request.within, unit);
   if (!complete)
     fmt::print("  error      {:+.1f} +- {:.1f} {} against the complete scene, 95 % confidence interval over "
@@ -139,9 +164,10 @@ void run_bed(const Arguments &arguments) {
   fmt::print("  scatter    one bed differs from another by {:.{}f} {} (standard deviation): the mean of {} "
              "beds is within {:g} {}\n",
              scale * advice.scatter, decimals, unit, advice.beds, scale * request.within, unit);
-  fmt::print("  time       {:.2g} s of processor time for {} cycles where it was measured, {:.2g} times that "
-             "of the complete scene; settling and placing come in addition\n",
-             advice.cpu_s, value_of(*advice.scene, "cycles"), advice.cost);
+  const std::string cycles = value_of(*advice.scene, "cycles"); // a roller that drives has passes
+  fmt::print("  time       {:.0f} s of processor time{} where it was measured, {:.2g} times that of the "
+             "complete scene; settling and placing come in addition\n",
+             advice.cpu_s, cycles.empty() ? "" : fmt::format(" for {} cycles", cycles), advice.cost);
   tell_scatter(experiment, request);
   fmt::print("  scene      {}\n", scene_words(*advice.scene));
   for (const std::string &words : scene_commands(*advice.scene))
@@ -230,11 +256,14 @@ void add_advise_command(CLI::App &app, Session &) {
   text_option(command, "--from", "DIR", arguments->from,
               "folder of an accuracy study of your own (with --bed: of any study of beds), instead of the "
               "project's");
-  command->add_flag("--bed", arguments->bed,
-                    "advise on a bed instead: the cheapest scene that the fidelity study has measured (see "
-                    "`drumlin study fidelity`)");
-  text_option(command, "--question", "TEXT", arguments->question,
-              "with --bed: force, acceleration, settlement or stiffness");
+  command->add_flag(
+      "--bed", arguments->bed,
+      "advise on a bed instead: the cheapest scene that a study of beds has measured (see `drumlin study "
+      "fidelity`)");
+  text_option(
+      command, "--question", "TEXT", arguments->question,
+      "with --bed: force, acceleration, settlement, stiffness or density, the gain of solid fraction of "
+      "a lift under a roller that drives (study drive)");
   text_option(
       command, "--within", "TEXT", arguments->within,
       "with --bed: error that is allowed, 10% if not given; of settlement also in mm per cycle, as 2mm");

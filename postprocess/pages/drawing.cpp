@@ -115,6 +115,11 @@ std::string bed_drawing() {
          text(262, 262, "soil balls") + strokes(arrow(285, 20, 55)) + text(293, 42, "g");
 }
 
+std::string drive_drawing() {
+  return bed_drawing() + strokes("M200 34 H240 M231 29 L240 34 L231 39", 2.4, red) +
+         text(220, 24, "v", "middle", red);
+}
+
 std::string oedometer_drawing() {
   return strokes(arrow(70, 25, 58) + arrow(134, 25, 58) + arrow(198, 25, 58), 2.4, red) +
          text(134, 17, "stress", "middle", red) + box(17, 60, 234, 16, steel) + text(262, 73, "platen") +
@@ -212,15 +217,19 @@ struct Scene {
 };
 
 /// In the order of Drawing.
-const std::array<Scene, 13> scenes = {{
+const std::array<Scene, 14> scenes = {{
     {"The chain of soil, drum and frame",
      "The model: frame and drum move up and down only. The contact with the soil is a spring and a "
      "dashpot that act while drum and soil overlap.",
      chain_drawing, 310},
     {"Drum and frame on a bed of balls",
-     "The model: frame and drum move up and down, and along the way if they drive, on soil of balls in a "
-     "box. Every contact is a spring and a dashpot, with friction.",
+     "The model: frame and drum move up and down only, on soil of balls in a box. Every contact is a spring "
+     "and a dashpot, with friction.",
      bed_drawing, 310},
+    {"Drum and frame that drive over a bed of balls",
+     "The model: frame and drum drive along the way and move up and down, on soil of balls in a box. Every "
+     "contact is a spring and a dashpot, with friction.",
+     drive_drawing, 310},
     {"A ball confined between two walls",
      "The model of the stability map: one ball in contact with one, two or four walls.", held_drawing, 190},
     {"A sample of soil between two plates",

@@ -9,6 +9,7 @@ namespace drumlin::post {
 enum class Drawing {
   chain,     ///< fixed soil, drum and frame, joined by contact and suspension
   bed,       ///< drum and frame on a bed of balls
+  drive,     ///< drum and frame that drive over a bed of balls
   confined,  ///< one ball confined between two walls
   oedometer, ///< a sample between two plates, loaded from above
   sphere,    ///< a sphere that strikes a plane

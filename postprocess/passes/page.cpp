@@ -4,6 +4,7 @@
 #include "pages/page.h"
 #include "passes/animation.h"
 #include "passes/tables.h"
+#include "support/csv.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -82,6 +83,17 @@ struct PassCurve {
   Value of_second;
 };
 
+/// Behind the unit of a force, stiffness or energy: in a plane they are those of 1 m of the drum's width.
+const char *per_metre(const Results &results) { return results.front().flat ? " per m of width" : ""; }
+
+/// Of the drum [m], by which what is per metre of width is that of the whole drum; NaN if it is not known, or
+/// nothing is per metre.
+double width_of(const Results &results) {
+  const PassesResult &one = results.front();
+  const auto width = one.parameters.find("roller_width");
+  return one.flat && width != one.parameters.end() ? number_from_text(width->second) : NAN;
+}
+
 PageFigure compaction_figure(const Results &results) {
   const std::string name = "compaction";
   const bool many = several(results);
@@ -111,7 +123,8 @@ PageFigure compaction_figure(const Results &results) {
                     [](const PassValues &pass) { return pass.cmv_scatter; },
                     nullptr,
                     {}});
-  curves.push_back({"Stiffness", "stiffness [MN/m]", 1e-6, [](const PassValues &pass) { return pass.k; },
+  const std::string stiffness = fmt::format("stiffness [MN/m{}]", per_metre(results));
+  curves.push_back({"Stiffness", stiffness, 1e-6, [](const PassValues &pass) { return pass.k; },
                     [](const PassValues &pass) { return pass.k_half_width; }, "k_B of the meter",
                     [](const PassValues &pass) { return pass.k_B; }});
   curves.erase(std::remove_if(curves.begin(), curves.end(),
@@ -249,6 +262,10 @@ PageTable pass_table(const Results &results) {
     Value value;
   };
   constexpr double milli = 1e3, kilo = 1e-3, mega = 1e-6;
+  const char *const per = per_metre(results);
+  const auto with_unit = [per](const char *name, const char *unit) {
+    return fmt::format("{} ({}{})", name, unit, per);
+  };
   std::vector<Shown> shown = {
       {"settlement (mm)", 1, milli, [](const PassValues &pass) { return pass.settlement; }},
       {"of it compaction (mm)", 1, milli, [](const PassValues &pass) { return pass.compaction; }},
@@ -269,17 +286,21 @@ PageTable pass_table(const Results &results) {
       {{"CMV", 1, 1.0, [](const PassValues &pass) { return pass.cmv; }},
        {"RMV", 1, 1.0, [](const PassValues &pass) { return pass.rmv; }},
        {"CCV", 1, 1.0, [](const PassValues &pass) { return pass.ccv; }},
-       {"k_B (MN/m)", 1, mega, [](const PassValues &pass) { return pass.k_B; }},
+       {with_unit("k_B", "MN/m"), 1, mega, [](const PassValues &pass) { return pass.k_B; }},
        {"E_vib (MPa)", 1, mega, [](const PassValues &pass) { return pass.E_vib; }},
-       {"k (MN/m)", 1, mega, [](const PassValues &pass) { return pass.k; }},
+       {with_unit("k", "MN/m"), 1, mega, [](const PassValues &pass) { return pass.k; }},
        {"half width of the interval of k", 1, mega, [](const PassValues &pass) { return pass.k_half_width; }},
+       {"k of the whole drum (MN/m)", 1, mega * width_of(results),
+        [](const PassValues &pass) { return pass.k; }},
        {"D", 2, 1.0, [](const PassValues &pass) { return pass.D; }},
        {"half width of the interval of D", 2, 1.0, [](const PassValues &pass) { return pass.D_half_width; }},
        {"contact", 2, 1.0, [](const PassValues &pass) { return pass.contact_share; }},
-       {"peak force (kN)", 0, kilo, [](const PassValues &pass) { return pass.peak_force; }},
-       {"traction (kN)", 2, kilo, [](const PassValues &pass) { return pass.traction; }},
-       {"exciter (kJ per m driven)", 2, kilo, [](const PassValues &pass) { return pass.energy_exciter; }},
-       {"traction (kJ per m driven)", 2, kilo, [](const PassValues &pass) { return pass.energy_traction; }}});
+       {with_unit("peak force", "kN"), 0, kilo, [](const PassValues &pass) { return pass.peak_force; }},
+       {with_unit("traction", "kN"), 2, kilo, [](const PassValues &pass) { return pass.traction; }},
+       {with_unit("exciter, per m driven", "kJ/m"), 2, kilo,
+        [](const PassValues &pass) { return pass.energy_exciter; }},
+       {with_unit("traction, per m driven", "kJ/m"), 2, kilo,
+        [](const PassValues &pass) { return pass.energy_traction; }}});
   const bool many = several(results);
   PageTable table("passes_table",
                   many ? "Means over the runs with 95 % intervals" : "What each pass has left", "quantity",
@@ -291,9 +312,9 @@ PageTable pass_table(const Results &results) {
     bool known = false;
     for (std::size_t pass = 0; pass <= most_passes(results); ++pass) {
       const MeanInterval mean = mean_after(results, pass, one.value);
-      known = known || std::isfinite(mean.mean);
+      known = known || std::isfinite(one.scale * mean.mean);
       cells.emplace_back(no_value);
-      if (!std::isfinite(mean.mean)) continue;
+      if (!std::isfinite(one.scale * mean.mean)) continue;
       cells.back() = fmt::format("{:.{}f}", one.scale * mean.mean, one.decimals);
       if (std::isfinite(mean.half_width))
         cells.back() += fmt::format(" ± {:.{}f}", one.scale * mean.half_width, one.decimals);
@@ -316,8 +337,6 @@ PageTable pass_table(const Results &results) {
       "layer, of which are relative density and degree of compaction, begins two mean diameters, at most a "
       "quarter of the thickness, away from them, as in.density measures. Meter values are means "
       "of cells, each of an even number of whole cycles; k and D are identified from each pass."};
-  if (results.front().flat)
-    table.notes.emplace_back("Forces, stiffnesses and energies are those of 1 m of the drum's width.");
   return table;
 }
 
@@ -390,7 +409,7 @@ std::string worth_of(const Results &results) {
 
 void write_passes_page(const std::filesystem::path &folder, const Results &results, const JudgedMap &judged) {
   const PassesResult &one = results.front();
-  Page page(folder, "What the passes of a roller leave", Drawing::bed);
+  Page page(folder, "What the passes of a roller leave", Drawing::drive);
   page.answer(worth_of(results));
   page.answer(answer_of(results));
   page.answer(answer_of(judged.map, judged.rows, judged.rule));

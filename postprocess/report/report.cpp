@@ -12,6 +12,7 @@
 #include "chain/direct_solver.h"
 #include "pages/gnuplot.h"
 #include "pages/html.h"
+#include "passes/page.h"
 #include "report/bed/figures.h"
 #include "report/bed/page.h"
 #include "report/chain/page.h"
@@ -97,20 +98,43 @@ std::string title_of(const fs::path &study) {
   return html_unescaped(page.substr(begin + open.size(), end - begin - open.size()));
 }
 
-/// Copies the studies into the report, each to studies/NAME, with a number added to the name if several have
-/// it.
-std::vector<StudyLink> copy_studies(const std::vector<fs::path> &studies, const fs::path &report) {
-  std::vector<StudyLink> links;
+/// A place below a folder of the report that nothing has taken: of this name, with a number added if several
+/// have it.
+fs::path free_place(const fs::path &report, const char *below, const std::string &name) {
+  fs::path place = fs::path(below) / name;
+  for (int number = 2; fs::exists(report / place); ++number)
+    place = fs::path(below) / fmt::format("{}-{}", name, number);
+  fs::create_directories((report / place).parent_path());
+  return place;
+}
+
+/// Copies the studies into the report, each to studies/NAME.
+void copy_studies(const std::vector<fs::path> &studies, const fs::path &report, ReportContent &content) {
   for (const fs::path &study : studies) {
-    const std::string name = fs::canonical(study).filename().string();
-    fs::path place = fs::path("studies") / name;
-    for (int number = 2; fs::exists(report / place); ++number)
-      place = fs::path("studies") / fmt::format("{}-{}", name, number);
-    fs::create_directories(report / "studies");
+    const fs::path place = free_place(report, "studies", fs::canonical(study).filename().string());
     fs::copy(study, report / place, fs::copy_options::recursive);
-    links.push_back({link_to((place / "index.html").string()), title_of(study)});
+    content.studies.push_back({link_to((place / "index.html").string()), title_of(study)});
   }
-  return links;
+}
+
+/// Writes the pages of passes of drives that have none of their own, each to passes/NAME.
+void write_passes_pages(const std::vector<fs::path> &runs, const fs::path &report, ReportContent &content) {
+  for (const fs::path &run : runs) {
+    const fs::path own = run / "passes";
+    if (fs::exists(own / "index.html") || !drives(run)) continue;
+    try {
+      const std::vector<PassesResult> passes = {measure_passes(read_drive(run), {})};
+      const std::string name = fs::canonical(run).filename().string();
+      const fs::path place = free_place(report, "passes", name);
+      write_passes_page(report / place, passes, JudgedMap(meter_map(passes, cell_meter("CMV")), {}));
+      content.studies.push_back(
+          {link_to((place / "index.html").string()), fmt::format("What the passes of {} leave", name)});
+    } catch (const std::runtime_error &fault) {
+      content.left_out.push_back({own, fault.what()});
+    } catch (const std::invalid_argument &fault) {
+      content.left_out.push_back({own, fault.what()});
+    }
+  }
 }
 
 /// Calls `work` and turns every exception into a UsageError, since an input file or the system is at fault.
@@ -251,7 +275,8 @@ ReportOutcome write_report(const ReportOptions &options) {
   fs::create_directories(folder / "figures");
   fs::create_directories(folder / "data");
   draw(content, gnuplot, folder, drawing);
-  content.studies = copy_studies(folders.studies, folder);
+  write_passes_pages(folders.runs, folder, content);
+  copy_studies(folders.studies, folder, content);
   for (const auto &[test, write] : element_pages) {
     write(folder / test.name);
     content.studies.push_back({link_to(test.name + "/index.html"), test.title});

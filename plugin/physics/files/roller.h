@@ -521,6 +521,7 @@ inline std::vector<DerivedValue> derived_values(const Roller &roller, const Roll
                                                 double omega, double g = roller_file::gravity) {
   const double load = (roller.m2 + roller.m3) * g;
   std::vector<DerivedValue> values;
+  if (roller.width) values.push_back({"width", *roller.width, "m"});
   const auto per_metre = [&](const std::string &name, double value) {
     values.push_back({name, value, "N"});
     if (roller.width) values.push_back({name + "_per_metre", value / *roller.width, "N/m"});

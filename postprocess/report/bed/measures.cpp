@@ -111,6 +111,16 @@ BedResult analyse_bed(Run run) {
   return result;
 }
 
+bool drives(const fs::path &folder) {
+  try {
+    const std::map<std::string, std::string> parameters = read_parameters(folder / "parameters.csv");
+    const auto deck = parameters.find("deck");
+    return deck != parameters.end() && deck->second == "drive";
+  } catch (const std::runtime_error &) { // a file that no deck has written
+    return false;
+  }
+}
+
 bool per_metre(const Run &run) { return run.text("dimension", "2") != "3"; }
 
 const char *per_metre_words(const Run &run, const char *words) { return per_metre(run) ? words : ""; }

@@ -1,5 +1,5 @@
 // Measured values of runs of the roller on a bed of balls, and the pairs of runs that are shown together. SI
-// units; in two dimensions masses, forces and energies are per metre perpendicular to the picture.
+// units; in two dimensions masses, forces and energies are per metre of the drum's width.
 #pragma once
 
 #include <cstddef>
@@ -50,6 +50,9 @@ struct BedResult {
 /// Reads the columns of the bed of a run of kind bed and measures the run. Throws std::runtime_error with
 /// file and line for a file that cannot be read, or if cycles.csv is missing.
 BedResult analyse_bed(Run run);
+
+/// Whether the roller of a run's folder drives over the bed, so that there are passes.
+bool drives(const std::filesystem::path &folder);
 
 /// Whether masses, forces and energies are per metre of the drum: in two dimensions.
 bool per_metre(const Run &run);

@@ -188,11 +188,15 @@ std::vector<PageTable> bed_tables(const std::vector<BedResult> &beds) {
 }
 
 std::string bed_page(const ReportContent &content) {
-  ReportPage page = page_beside(bed_answer(content.groups), Drawing::bed, content.bed_keys);
-  std::string numbers =
-      "<p>Drum and frame stand on a bed of balls and move up and down only; the exciter acts on the drum. "
-      "In two dimensions masses, forces and energies are per metre perpendicular to the picture. Condition "
-      "A dashed, condition B (no-tension limit) solid. Nothing here is compared with a measurement.</p>\n";
+  const bool drive = std::all_of(content.beds.begin(), content.beds.end(),
+                                 [](const BedResult &result) { return drives(result.run.folder); });
+  ReportPage page =
+      page_beside(bed_answer(content.groups), drive ? Drawing::drive : Drawing::bed, content.bed_keys);
+  std::string numbers = fmt::format(
+      "<p>Drum and frame {}; the exciter acts on the drum. In two dimensions masses, forces and energies are "
+      "per metre of the drum's width. Condition A dashed, condition B (no-tension limit) solid. Nothing here "
+      "is compared with a measurement.</p>\n",
+      drive ? "drive over a bed of balls" : "stand on a bed of balls and move up and down only");
   for (const PageTable &table : content.bed_tables)
     numbers += table_html(table);
   page.section("numbers", "Numbers", numbers);

@@ -92,6 +92,11 @@ TEST_F(BedAdviceTest, NamesTheCheapestSceneWithinTheError) {
   const std::vector<std::string> layers =
       post::scene_commands(post::read_plan(post::input_file("study/fidelity/plan")).scene("layers"));
   EXPECT_EQ(layers[0], "bed --layer 1.24 --layer 0.7 --width 2");
+  const std::string spot = post::scene_commands(
+      post::read_plan(post::input_file("study/drive/plan")).scene("soft spot of 1 m"))[0];
+  EXPECT_EQ(
+      spot.rfind("bed --layer 0.4 --layer 0.3 --relative-density 0.9 --relative-density 0.1 --spot ", 0), 0U)
+      << spot;
 }
 
 // The complete beds settle by -2 to 2 mm per cycle: no error relative to their mean exists, but one in mm
