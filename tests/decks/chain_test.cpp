@@ -26,7 +26,7 @@ using post::ChainHistory;
 using post::ChainParameters;
 using post::Transition;
 
-constexpr int cycles = 30; // the deck's default
+constexpr int cycles = 30; // of run_chain()
 
 struct Case {
   const char *name;

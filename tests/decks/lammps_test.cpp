@@ -52,7 +52,8 @@ std::string chain_name(const ::testing::TestParamInfo<Chain> &info) {
 TEST_P(InLammpsChain, IsThatOfLiggghtsAndFollowsTheDirectSolver) {
   const Variables variables = {{"case", GetParam().name},
                                {"transition", post::transition_name(GetParam().transition)},
-                               {"stepping", GetParam().stepping}};
+                               {"stepping", GetParam().stepping},
+                               {"cycles", "30"}};
   const Scratch lammps, liggghts;
   well(run_deck(chain_deck("in.chain.lammps"), variables, lammps.path()));
   well(run_deck(chain_deck("in.chain"), variables, liggghts.path()));

@@ -93,7 +93,8 @@ ChainRun run_chain(const std::string &name, post::Transition transition, int ste
                  {"steps_per_cycle", std::to_string(steps_per_cycle)},
                  {"samples_per_cycle", std::to_string(samples_per_cycle)}},
                 more),
-           {{"stepping", "stock"}}); // the engine takes the first value of a variable: `more` goes before
+           {{"cycles", "30"},
+            {"stepping", "stock"}}); // the engine takes the first value of a variable: `more` goes before
   well(run_deck(chain_deck("in.chain"), variables, scratch.path()));
   return read_run(scratch.path());
 }

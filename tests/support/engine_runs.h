@@ -80,8 +80,8 @@ struct ChainRun {
 };
 ChainRun read_run(const std::filesystem::path &folder);
 
-/// Runs in.chain in a folder of its own for a case of Table 1, with stock stepping unless a further variable
-/// says otherwise. Fails the test on an error.
+/// Runs in.chain in a folder of its own for a case of Table 1, 30 cycles with stock stepping unless a
+/// variable says otherwise. Fails the test on an error.
 ChainRun run_chain(const std::string &name, post::Transition transition, int steps_per_cycle,
                    int samples_per_cycle, const Variables &more = {});
 
