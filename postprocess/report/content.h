@@ -22,8 +22,9 @@ struct ReportVersions {
 
 /// A study that is part of the report.
 struct StudyLink {
-  std::string place; ///< link to its index.html, relative to the report's
-  std::string title; ///< plain text
+  std::string place;        ///< link to its index.html, relative to the report's
+  std::string title;        ///< plain text
+  std::string picture = {}; ///< shown on the first page, which links the study by it; empty: none
 };
 
 /// What a report is made of. With runs on beds or of drums with two ends only,

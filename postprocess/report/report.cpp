@@ -108,12 +108,19 @@ fs::path free_place(const fs::path &report, const char *below, const std::string
   return place;
 }
 
+/// The link to a page in the report; of the passes of a roller with the curve of compaction.
+StudyLink link_of(const fs::path &report, const fs::path &place, const std::string &title) {
+  const fs::path picture = place / "figures/compaction_key.svg";
+  return {link_to((place / "index.html").string()), title,
+          fs::exists(report / picture) ? link_to(picture.string()) : ""};
+}
+
 /// Copies the studies into the report, each to studies/NAME.
 void copy_studies(const std::vector<fs::path> &studies, const fs::path &report, ReportContent &content) {
   for (const fs::path &study : studies) {
     const fs::path place = free_place(report, "studies", fs::canonical(study).filename().string());
     fs::copy(study, report / place, fs::copy_options::recursive);
-    content.studies.push_back({link_to((place / "index.html").string()), title_of(study)});
+    content.studies.push_back(link_of(report, place, title_of(study)));
   }
 }
 
@@ -127,8 +134,7 @@ void write_passes_pages(const std::vector<fs::path> &runs, const fs::path &repor
       const std::string name = fs::canonical(run).filename().string();
       const fs::path place = free_place(report, "passes", name);
       write_passes_page(report / place, passes, JudgedMap(meter_map(passes, cell_meter("CMV")), {}));
-      content.studies.push_back(
-          {link_to((place / "index.html").string()), fmt::format("What the passes of {} leave", name)});
+      content.studies.push_back(link_of(report, place, fmt::format("What the passes of {} leave", name)));
     } catch (const std::runtime_error &fault) {
       content.left_out.push_back({own, fault.what()});
     } catch (const std::invalid_argument &fault) {
@@ -279,7 +285,7 @@ ReportOutcome write_report(const ReportOptions &options) {
   copy_studies(folders.studies, folder, content);
   for (const auto &[test, write] : element_pages) {
     write(folder / test.name);
-    content.studies.push_back({link_to(test.name + "/index.html"), test.title});
+    content.studies.push_back(link_of(folder, test.name, test.title));
   }
   content.versions = find_versions(options.version, gnuplot, folder);
   std::vector<FileText> pages = {{folder / "index.html", report_page(content)},

@@ -65,6 +65,17 @@ Drawing scene_of(const ReportContent &content) {
   return !content.beds.empty() ? Drawing::bed : !content.ends.empty() ? Drawing::two_ends : Drawing::chain;
 }
 
+/// Pictures of studies that have one, which link their pages.
+std::string pictures_html(const std::vector<StudyLink> &studies) {
+  std::string s;
+  for (const StudyLink &study : studies)
+    if (!study.picture.empty())
+      s += fmt::format("<figure>\n<a href=\"{0}\"><img src=\"{1}\" alt=\"{2}\" /></a>\n<figcaption><a "
+                       "href=\"{0}\">{2}</a></figcaption>\n</figure>\n",
+                       html_escaped(study.place), html_escaped(study.picture), html_escaped(study.title));
+  return s;
+}
+
 std::string opening_html(const ReportContent &content) {
   Answer answer = chain_answer(content.results);
   answer.add(bed_answer(content.groups));
@@ -80,7 +91,7 @@ std::string opening_html(const ReportContent &content) {
                      others == 1 ? "One folder is" : fmt::format("{} folders are", others)),
          "Left out."});
   return answer_html(answer.sentences, answer.verdict, drawing_html(scene_of(content))) +
-         key_figures_html(content.keys);
+         key_figures_html(content.keys) + pictures_html(content.studies);
 }
 
 /// Names runs that have a page of their own.
