@@ -204,6 +204,7 @@ protected:
       return run(bed_folder() / deck, folder, more, ranks);
     };
     for (const int ranks : {1, 2}) {
+      if (most_ranks() == 2 && (ranks == 1) == (std::string(stepping) == "stock")) continue; // by night
       const Scratch stayed, left;
       well(shaken(stayed, {}, ranks));
       const Outcome stopped = well(shaken(left, {{"time_limit", "1e-3"}}, ranks));
@@ -385,7 +386,7 @@ TEST_F(Bed, RecordsTheForcesThatMoveTheDrum) {
 }
 
 // The same bed, whatever the number of ranks; borders between ranks lie under the drum.
-TEST_F(Bed, GoesTheSameWayOnRanksOneTwoAndFour) {
+TEST_F(Bed, GoesTheSameWayOnSeveralRanks) {
   const std::array<std::array<const char *, 3>, 4> scenes = {{{"ball", "stock", "rigid"},
                                                               {"clump", "stock", "rigid"},
                                                               {"ball", "second", "rigid"},
@@ -396,7 +397,7 @@ TEST_F(Bed, GoesTheSameWayOnRanksOneTwoAndFour) {
         short_cycle(), {{"cycles", "1"}, {"drum", drum}, {"stepping", stepping}, {"boundary", boundary}});
     well(shake(one, variables));
     const std::vector<double> alone = post::read_table(one / "bed.csv").numbers("x_drum");
-    for (const int ranks : {2, 4}) {
+    for (int ranks = 2; ranks <= most_ranks(); ranks *= 2) {
       const Scratch folder;
       EXPECT_TRUE(printed(well(shake(folder, variables, ranks)),
                           std::to_string(ranks) + " by 1 by 1 MPI processor grid"));
@@ -1055,7 +1056,7 @@ protected:
 
 // From the same data file, with a contact history that starts at zero in both engines: the difference is
 // rounding. Over 500 steps it stays small; later the bed makes it grow.
-TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
+TEST_F(BedInLammps, GoesAsInLiggghtsOnSeveralRanksWithNewtonOffAndOn) {
   // What ranks tell each other does not depend on the transition: without `split`, one division only. With it
   // each number of ranks and each word for newton is tried under both schemes, with one of the two drums.
   struct Law {
@@ -1089,6 +1090,7 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
       well(Bed::shake(here, in_liggghts));
       const post::Table expected = post::read_table(here / "bed.csv");
       for (const auto &[ranks, newton] : divisions) {
+        if (ranks > most_ranks()) continue;
         const Scratch there;
         const Variables in_lammps = with(variables, {{"newton", newton}, {"rest", "0"}, {"balance", "1e30"}});
         well(shake(there, in_lammps, ranks));

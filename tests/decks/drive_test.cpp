@@ -224,11 +224,11 @@ TEST_F(BedDriven, KeepsTheFinishedPassesWhenCtrlCStopsItInOne) {
                                    " is not finished and is left out: the run was stopped in it"));
 }
 
-TEST_F(BedDriven, GoesTheSameWayOnRanksOneTwoAndFour) {
+TEST_F(BedDriven, GoesTheSameWayOnSeveralRanks) {
   const Scratch one;
   well(drive(one, {{"time_limit", "1e-3"}})); // a cycle, 1000 steps
   const post::Table alone = post::read_table(one / "bed.csv");
-  for (const int ranks : {2, 4}) {
+  for (int ranks = 2; ranks <= most_ranks(); ranks *= 2) {
     const Scratch folder;
     well(drive(folder, {{"time_limit", "1e-3"}}, ranks));
     const post::Table together = post::read_table(folder / "bed.csv");

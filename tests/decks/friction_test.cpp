@@ -397,8 +397,8 @@ TEST(Coulomb, HistoryIsKeptWhenTheOrderOfBallsChanges) {
       EXPECT_NEAR(frames[1].back().balls.at(id).x[a], ball.x[a], 1e-9) << "ball " << id;
 }
 
-TEST(Coulomb, ContinuesFromARestartFileBitwiseOnRanksOneTwoAndFour) {
-  for (const int ranks : {1, 2, 4})
+TEST(Coulomb, ContinuesFromARestartFileBitwiseOnSeveralRanks) {
+  for (int ranks = 1; ranks <= most_ranks(); ranks *= 2)
     for (const char *stepping : {"second", "stock"}) {
       const Scratch stayed, left;
       Variables law = {{"tangential", "coulomb"}, {"rolling", "epsd2"}, {"stepping", stepping}};

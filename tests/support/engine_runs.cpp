@@ -80,6 +80,11 @@ std::vector<Frame> read_dump(const fs::path &file) {
   return frames;
 }
 
+int most_ranks() {
+  const char *const said = std::getenv("DRUMLIN_RANKS");
+  return said == nullptr ? 2 : std::atoi(said);
+}
+
 ChainRun read_run(const fs::path &folder) {
   return {post::read_chain(folder / "chain.csv"), post::read_events(folder / "events.csv")};
 }

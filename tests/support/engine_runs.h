@@ -80,6 +80,10 @@ struct ChainRun {
 };
 ChainRun read_run(const std::filesystem::path &folder);
 
+/// The largest number of ranks of tests that try several: two, or by night DRUMLIN_RANKS, since more would
+/// take turns on two cores.
+int most_ranks();
+
 /// Runs in.chain in a folder of its own for a case of Table 1, 30 cycles with stock stepping unless a
 /// variable says otherwise. Fails the test on an error.
 ChainRun run_chain(const std::string &name, post::Transition transition, int steps_per_cycle,
