@@ -42,7 +42,6 @@ struct Arguments {
   bool turn_round = false;
   std::optional<std::string> contacts, tilt;
   std::string samples_per_cycle = "200";
-  std::optional<std::string> rtol;
   std::string impact_speed = "0";
   std::string out;
 };
@@ -127,8 +126,6 @@ void judge_with_contacts(const Arguments &arguments, bool file) {
   const std::string &contacts = *arguments.contacts;
   if (arguments.way && file)
     throw UsageError(refusal("--contacts", contacts, "a whole number with --way, which has k and D"));
-  if (arguments.rtol)
-    throw UsageError(refusal("--rtol", *arguments.rtol, "none with --contacts, solved in closed form"));
   if (arguments.tilt &&
       number_option("--impact-speed", arguments.impact_speed, DirectOptions::impact_speed_range) > 0.0)
     throw UsageError(refusal("--tilt", *arguments.tilt, "none with --impact-speed"));
@@ -198,7 +195,6 @@ Task judge(const Arguments &arguments) {
     options.cycles = number_option("--cycles", *arguments.cycles, DirectOptions::cycles_range);
   options.samples_per_cycle =
       count_option("--samples-per-cycle", arguments.samples_per_cycle, 1, DirectOptions::most_samples);
-  if (arguments.rtol) options.rtol = number_option("--rtol", *arguments.rtol, DirectOptions::rtol_range);
   options.impact_speed =
       number_option("--impact-speed", arguments.impact_speed, DirectOptions::impact_speed_range);
   std::string fault = options.invalid();
@@ -206,7 +202,7 @@ Task judge(const Arguments &arguments) {
   if (fault.empty())
     fault = task.ends ? too_much_work(task.ends->machine, options) : too_much_work(task.parameters, options);
   if (!fault.empty()) throw UsageError("--" + fault);
-  task.closed_form = task.ends || (!arguments.rtol && closed_form_suffices(task.parameters, options));
+  task.closed_form = task.ends || closed_form_suffices(task.parameters, options);
   task.out = output_folder_option("--out", arguments.out);
   std::vector<GivenPath> given = files_of(arguments.chain.roller);
   if (arguments.way) given.push_back({"--way", *arguments.way});
@@ -266,8 +262,7 @@ std::vector<std::pair<std::string, std::string>> record(const Arguments &argumen
   values.insert(values.end(), {{"impact_speed", number_text(task.options.impact_speed)},
                                {"cycles", number_text(task.options.cycles)},
                                {"samples_per_cycle", fmt::format("{}", task.options.samples_per_cycle)},
-                               {"solver", solver},
-                               {"rtol", number_text(task.closed_form ? 0.0 : task.options.rtol)}});
+                               {"solver", solver}});
   if (task.roller) {
     const auto rows = task.roller->rows(p.g);
     values.insert(values.end(), rows.begin(), rows.end());
@@ -336,7 +331,7 @@ void add_exact_command(CLI::App &app, Session &session) {
   CLI::App *exact = app.add_subcommand(
       "exact",
       "Solve the chain soil - drum - frame without an engine, in closed form; by the integrator CVODE "
-      "with --rtol, and where contact and bond decay so fast that the closed form would take long. "
+      "where k or D change linearly along a way, or contact and bond decay very fast. "
       "Writes chain.csv, events.csv, cycles.csv and parameters.csv.");
   add_chain_options(*exact, arguments->chain);
   text_option(exact, "--cycles", "NUMBER", arguments->cycles, "cycles of the excitation (default 30)");
@@ -361,8 +356,6 @@ void add_exact_command(CLI::App &app, Session &session) {
               "with --contacts: tilt of drum and frame at the start besides that of equilibrium [rad]");
   text_option(exact, "--samples-per-cycle", "COUNT", arguments->samples_per_cycle,
               "rows of chain.csv per cycle");
-  text_option(exact, "--rtol", "NUMBER", arguments->rtol,
-              "solve by the integrator, with this relative tolerance, 1e-14 to 1e-3");
   text_option(exact, "--impact-speed", "NUMBER", arguments->impact_speed,
               "if positive: start touching and moving down at this speed [m/s] instead of at equilibrium");
   exact->add_option("--out", arguments->out, "folder for the files, made if missing")
