@@ -1,7 +1,6 @@
 #include "commands/commands.h"
 
-#include "chain/closed_form.h"
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "chain/driven_way.h"
 #include "chain/parameters.h"
 #include "chain/two_ends.h"
@@ -68,8 +67,7 @@ struct Task {
   std::optional<Ends> ends;
   std::optional<double> me_re; ///< kg m, from which Fw follows; none: Fw is given
   std::optional<GivenRoller> roller;
-  DirectOptions options;
-  bool closed_form = true;
+  ExactOptions options;
   fs::path out;
 };
 
@@ -78,7 +76,7 @@ constexpr std::array<const char *, 4> file_names = {"chain.csv", "events.csv", "
 
 /// The roller that drives, if it does, and its time in the options.
 std::optional<Drive> judge_drive(const Arguments &arguments, const ChainParameters &parameters,
-                                 DirectOptions &options) {
+                                 ExactOptions &options) {
   if (!arguments.way) {
     if (arguments.speed) throw UsageError(refusal("--speed", *arguments.speed, "a number with --way FILE"));
     if (arguments.passes)
@@ -109,10 +107,10 @@ std::optional<Drive> judge_drive(const Arguments &arguments, const ChainParamete
   if (arguments.passes) drive.passes = static_cast<int>(count_option("--passes", *arguments.passes, 1, 1000));
   const double length = drive.way.back().s - drive.way.front().s;
   options.cycles = drive.passes * length / drive.speed / parameters.period();
-  if (!DirectOptions::cycles_range.holds(options.cycles))
+  if (!ExactOptions::cycles_range.holds(options.cycles))
     throw UsageError(refusal("--speed", *arguments.speed,
                              fmt::format("one with which {} passes over {:g} m take at most {:g} cycles",
-                                         drive.passes, length, DirectOptions::cycles_range.most)));
+                                         drive.passes, length, ExactOptions::cycles_range.most)));
   constexpr std::size_t most_sections = 1'000'000;
   if (drive.way.size() * static_cast<std::size_t>(drive.passes) > most_sections)
     throw UsageError(refusal("--passes", *arguments.passes,
@@ -127,7 +125,7 @@ void judge_with_contacts(const Arguments &arguments, bool file) {
   if (arguments.way && file)
     throw UsageError(refusal("--contacts", contacts, "a whole number with --way, which has k and D"));
   if (arguments.tilt &&
-      number_option("--impact-speed", arguments.impact_speed, DirectOptions::impact_speed_range) > 0.0)
+      number_option("--impact-speed", arguments.impact_speed, ExactOptions::impact_speed_range) > 0.0)
     throw UsageError(refusal("--tilt", *arguments.tilt, "none with --impact-speed"));
   for (const char *name : {"k", "D"})
     if (const auto given = given_number(arguments.chain, name); given && file)
@@ -137,7 +135,7 @@ void judge_with_contacts(const Arguments &arguments, bool file) {
 
 /// The drum with two ends, if it is asked for.
 std::optional<Ends> judge_ends(const Arguments &arguments, const AskedChain &chain,
-                               const DirectOptions &options) {
+                               const ExactOptions &options) {
   if (!arguments.contacts) {
     if (arguments.tilt) throw UsageError(refusal("--tilt", *arguments.tilt, "a number with --contacts"));
     return std::nullopt;
@@ -189,20 +187,19 @@ Task judge(const Arguments &arguments) {
   task.parameters = chain.parameters;
   task.me_re = chain.me_re;
   task.roller = chain.roller;
-  DirectOptions &options = task.options;
+  ExactOptions &options = task.options;
   task.drive = judge_drive(arguments, task.parameters, options);
   if (arguments.cycles)
-    options.cycles = number_option("--cycles", *arguments.cycles, DirectOptions::cycles_range);
+    options.cycles = number_option("--cycles", *arguments.cycles, ExactOptions::cycles_range);
   options.samples_per_cycle =
-      count_option("--samples-per-cycle", arguments.samples_per_cycle, 1, DirectOptions::most_samples);
+      count_option("--samples-per-cycle", arguments.samples_per_cycle, 1, ExactOptions::most_samples);
   options.impact_speed =
-      number_option("--impact-speed", arguments.impact_speed, DirectOptions::impact_speed_range);
+      number_option("--impact-speed", arguments.impact_speed, ExactOptions::impact_speed_range);
   std::string fault = options.invalid();
   task.ends = judge_ends(arguments, chain, options);
   if (fault.empty())
     fault = task.ends ? too_much_work(task.ends->machine, options) : too_much_work(task.parameters, options);
   if (!fault.empty()) throw UsageError("--" + fault);
-  task.closed_form = task.ends || closed_form_suffices(task.parameters, options);
   task.out = output_folder_option("--out", arguments.out);
   std::vector<GivenPath> given = files_of(arguments.chain.roller);
   if (arguments.way) given.push_back({"--way", *arguments.way});
@@ -218,13 +215,10 @@ Task judge(const Arguments &arguments) {
 }
 
 std::vector<std::pair<std::string, std::string>> record(const Arguments &arguments, const Task &task,
-                                                        const DirectCost &cost, const std::string &command) {
+                                                        const std::string &command) {
   const ChainParameters &p = task.parameters;
   std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
-  values.insert(values.begin(), {"case", arguments.chain.chain_case});
-  const std::string solver =
-      task.closed_form ? "closed form"
-                       : fmt::format("{} {}", direct_solver_name(), cost.bdf ? "Adams and BDF" : "Adams");
+  values.insert(values.begin(), {{"deck", "exact"}, {"case", arguments.chain.chain_case}});
   const bool of_file = task.ends && task.ends->file;
   if (task.drive || of_file) { // k, D and c are those of each place
     const auto of_place = [](const auto &value) { return value.first == "k" || value.first == "D"; };
@@ -261,8 +255,7 @@ std::vector<std::pair<std::string, std::string>> record(const Arguments &argumen
   }
   values.insert(values.end(), {{"impact_speed", number_text(task.options.impact_speed)},
                                {"cycles", number_text(task.options.cycles)},
-                               {"samples_per_cycle", fmt::format("{}", task.options.samples_per_cycle)},
-                               {"solver", solver}});
+                               {"samples_per_cycle", fmt::format("{}", task.options.samples_per_cycle)}});
   if (task.roller) {
     const auto rows = task.roller->rows(p.g);
     values.insert(values.end(), rows.begin(), rows.end());
@@ -283,10 +276,8 @@ void run(const Arguments &arguments, const std::string &command) {
     progress.tell("solved to cycle {:.1f} of {:g}", share * task.options.cycles, task.options.cycles);
   };
   TwoEndsOrbit orbit;
-  const DirectResult result = [&]() -> DirectResult {
-    if (!task.ends)
-      return task.closed_form ? solve_closed_form(task.parameters, task.options, tell)
-                              : solve_direct(task.parameters, task.options, tell);
+  const ExactSolution result = [&]() -> ExactSolution {
+    if (!task.ends) return solve_chain(task.parameters, task.options, tell);
     TwoEndsResult solved = solve_two_ends(task.ends->machine, task.options, tell);
     orbit = solved.orbit;
     return std::move(solved);
@@ -300,14 +291,14 @@ void run(const Arguments &arguments, const std::string &command) {
   write_files({{task.out / file_names[0], chain_text(result.history)},
                {task.out / file_names[1], events_text(result.events)},
                {task.out / file_names[2], cycles_text(result.cycles)},
-               {task.out / file_names[3], parameters_text(record(arguments, task, result.cost, command))}});
+               {task.out / file_names[3], parameters_text(record(arguments, task, command))}});
   const std::string of_moment =
       task.me_re
           ? fmt::format(", of the eccentric moment {:g} kg m of the roller, whatever the masses", *task.me_re)
           : "";
   fmt::print("{}: {} samples, {} events, {} cycles (case {}, transition {}; {} steps), Fw {:g} N{}\n",
              task.out.string(), result.history.size(), result.events.size(), result.cycles.size(),
-             arguments.chain.chain_case, arguments.chain.transition, result.cost.steps, task.parameters.Fw,
+             arguments.chain.chain_case, arguments.chain.transition, result.pieces, task.parameters.Fw,
              of_moment);
   if (!task.ends) return;
   const std::string of_tilt = orbit.of_tilt < 0.0 ? "" : fmt::format(", of tilting {:.4g}", orbit.of_tilt);
@@ -330,9 +321,8 @@ void add_exact_command(CLI::App &app, Session &session) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App *exact = app.add_subcommand(
       "exact",
-      "Solve the chain soil - drum - frame without an engine, in closed form; by the integrator CVODE "
-      "where k or D change linearly along a way, or contact and bond decay very fast. "
-      "Writes chain.csv, events.csv, cycles.csv and parameters.csv.");
+      "Solve the chain soil - drum - frame without an engine, in closed form. Writes chain.csv, events.csv, "
+      "cycles.csv and parameters.csv.");
   add_chain_options(*exact, arguments->chain);
   text_option(exact, "--cycles", "NUMBER", arguments->cycles, "cycles of the excitation (default 30)");
   text_option(

@@ -78,7 +78,7 @@ double share_from_samples(const ChainHistory &history, TimeWindow window) {
 }
 
 /// Fills the values that compare a run with its reference solution.
-void compare_with_reference(ChainMeasures &m, const Run &run, const DirectResult &reference) {
+void compare_with_reference(ChainMeasures &m, const Run &run, const ExactSolution &reference) {
   const double period = run.chain.period();
   const std::vector<double> exact =
       reference_velocity(run.history, reference.history, period, m.reference_interpolated);
@@ -91,7 +91,7 @@ void compare_with_reference(ChainMeasures &m, const Run &run, const DirectResult
 }
 
 /// \param reference the reference solution; nullptr if there is none
-ChainMeasures measure_chain(const Run &run, const DirectResult *reference) {
+ChainMeasures measure_chain(const Run &run, const ExactSolution *reference) {
   ChainMeasures m;
   const ChainParameters &p = run.chain;
   const double period = p.period();
@@ -141,7 +141,7 @@ ChainMeasures measure_chain(const Run &run, const DirectResult *reference) {
 }
 
 /// The reference solution in the form of a run, so that it is measured in the same way.
-Run as_run(const Run &run, const DirectResult &reference) {
+Run as_run(const Run &run, const ExactSolution &reference) {
   Run out;
   out.kind = RunKind::chain;
   out.direct = true;
@@ -359,35 +359,35 @@ void compare_words(ReportResults &results) {
 
 } // namespace
 
-std::shared_ptr<const DirectResult> DirectSolutions::solve(const ChainParameters &parameters, int cycles,
+std::shared_ptr<const ExactSolution> ExactSolutions::solve(const ChainParameters &parameters, int cycles,
                                                            int samples_per_cycle, double impact_speed) {
   std::string key = fmt::format("{} {} {} {}", transition_name(parameters.transition), cycles,
                                 samples_per_cycle, impact_speed);
   for (const ChainNumber &number : chain_numbers)
     key += fmt::format(" {}", parameters.*number.value);
-  std::shared_ptr<const DirectResult> &entry = known_[key];
+  std::shared_ptr<const ExactSolution> &entry = known_[key];
   if (!entry) {
-    DirectOptions options;
+    ExactOptions options;
     options.cycles = cycles;
     options.samples_per_cycle = samples_per_cycle;
     options.impact_speed = impact_speed;
     if (const std::string fault = too_much_work(parameters, options); !fault.empty())
       throw std::runtime_error(fault);
-    entry = std::make_shared<const DirectResult>(solve_direct(parameters, options));
+    entry = std::make_shared<const ExactSolution>(solve_chain(parameters, options));
   }
   return entry;
 }
 
-RunResult analyse(Run run, DirectSolutions &direct) {
+RunResult analyse(Run run, ExactSolutions &exact) {
   RunResult result;
   result.run = std::move(run);
   const Run &r = result.run;
   if (r.kind == RunKind::chain && r.complete >= 1) {
     try {
-      result.reference = direct.solve(r.chain, r.complete, r.samples_per_cycle, r.impact_speed);
+      result.reference = exact.solve(r.chain, r.complete, r.samples_per_cycle, r.impact_speed);
     } catch (const std::exception &failure) {
       result.run.missing.push_back(fmt::format(
-          "no comparison with the reference solution, since the direct solver failed: {}.", failure.what()));
+          "no comparison with the reference solution, which cannot be computed: {}.", failure.what()));
     }
     result.chain = measure_chain(r, result.reference.get());
     if (result.reference)

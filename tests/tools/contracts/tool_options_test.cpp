@@ -367,7 +367,8 @@ TEST_F(ToolOptions, TheEndsOfTheRangesHaveAnAnswer) {
 // A solution that takes seconds prints its progress.
 TEST_F(ToolOptions, LongWorkShowsProgress) {
   post::Program program;
-  program.words = {DRUMLIN_TOOLS, "exact", "--omega", "0.01", "--cycles", "70", "--out", "o"};
+  program.words = {DRUMLIN_TOOLS, "exact",      "--omega", "0.01",  "--cycles",
+                   "70",          "--contacts", "8",       "--out", "o"};
   program.folder = folder_;
   program.output = folder_ / post::program_output_file;
   program.limit = 60.0;
