@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "chain/reference_values.h"
 #include "report/place.h"
 #include "report/soil/element_tests.h"
 #include "support/text.h"

@@ -2,7 +2,6 @@
 
 #include "bed/dump_readers.h"
 #include "chain/analysis.h"
-#include "chain/reference_values.h"
 #include "engine/deck_run.h"
 #include "runs/chain_files.h"
 

@@ -11,7 +11,6 @@
 
 #include "chain/analysis.h"
 #include "chain/exact_solution.h"
-#include "chain/reference_values.h"
 #include "report/run_folder.h"
 
 namespace drumlin::post {

@@ -2,6 +2,7 @@
 
 #include "engine/places.h"
 #include "report/chain/engine_comparison.h"
+#include "report/chain/reference_values.h"
 #include "support/text.h"
 
 #include <algorithm>
@@ -352,10 +353,11 @@ std::string known_error(const RunResult &r, bool second) {
   const Run &run = r.run;
   const bool comparable = run.at_case && run.chain.transition == Transition::B;
   if (!comparable && !(second && run.case_name == "I")) return dash;
-  const std::optional<double> known =
-      second ? reference_velocity_error(run.case_name, run.steps_per_cycle)
-             : reference_stock_velocity_error(run.case_name, run.steps_per_cycle);
-  return known ? scientific(*known) : dash;
+  const ReferenceValue *known =
+      reference_value(run.case_name, "B",
+                      fmt::format("velocity error at {} steps, {} stepping", run.steps_per_cycle,
+                                  second ? "second" : "stock"));
+  return known != nullptr ? scientific(known->low) : dash;
 }
 
 const RunColumns error_columns = naming(
