@@ -5,12 +5,11 @@
 
 namespace drumlin::post {
 
-DirectResult accuracy_reference(const ChainParameters &parameters, const SolverProgress &progress) {
-  DirectOptions options;
+ExactSolution accuracy_reference(const ChainParameters &parameters, const SolverProgress &progress) {
+  ExactOptions options;
   options.cycles = accuracy_cycles;
   options.samples_per_cycle = accuracy_samples;
-  options.rtol = 1e-13;
-  return solve_direct(parameters, options, progress);
+  return solve_chain(parameters, options, progress);
 }
 
 std::vector<ErrorPoint> in_order(std::vector<ErrorPoint> points) {

@@ -3,7 +3,7 @@
 // measured is an empty cell, NaN here.
 #pragma once
 
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "chain/parameters.h"
 #include "support/convergence.h"
 #include "support/csv_schema.h"
@@ -32,8 +32,8 @@ struct ChainErrors {
   double wall_s;         ///< time of the whole process, with finding the equilibrium
 };
 
-/// The reference solution to which the runs of a chain are compared, by the direct solver.
-DirectResult accuracy_reference(const ChainParameters &parameters, const SolverProgress &progress = {});
+/// The exact solution to which the runs of a chain are compared.
+ExactSolution accuracy_reference(const ChainParameters &parameters, const SolverProgress &progress = {});
 
 /// One row of chain.csv. The first four name the point.
 struct ChainPoint {

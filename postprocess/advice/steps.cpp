@@ -1,7 +1,7 @@
 #include "advice/steps.h"
 
 #include "chain/analysis.h"
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "support/range.h"
 #include "support/statistics.h"
 #include "support/usage_error.h"

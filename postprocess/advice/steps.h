@@ -11,7 +11,7 @@
 #pragma once
 
 #include "advice/step_errors.h"
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "chain/parameters.h"
 
 #include <functional>
@@ -50,7 +50,7 @@ constexpr int advised_multiple = 200;
 constexpr double most_sensitive = 1e5;
 
 /// S: the relative RMS change of the drum's velocity over the last 5 of 30 cycles per relative change of k, D
-/// and m2, root of the sum of squares, by the direct solver.
+/// and m2, root of the sum of squares, of exact solutions.
 /// \param progress called with the share of the work that is done, 0 to 1
 double sensitivity(const ChainParameters &parameters, const SolverProgress &progress = {});
 

@@ -425,4 +425,28 @@ std::optional<ImpactMeasure> measure_impact(const ChainHistory &history,
   return measure;
 }
 
+double closed_form_restitution(const std::string &transition, double damping_ratio) {
+  const double D = damping_ratio;
+  const double pi = std::acos(-1.0);
+  // Time in units of 1/w0: d'' + 2 D d' + d = 0, d(0) = 0, d'(0) = 1.
+  if (transition == "A") {
+    if (D >= 1.0) return 0.0;
+    return std::exp(-pi * D / std::sqrt(1.0 - D * D));
+  }
+  // B ends where d'' = 0, that is 2 D d' + d = 0; by then d' = -e.
+  if (D == 0.0) return 1.0;
+  const double tiny = 1.0e-9;
+  if (std::abs(D - 1.0) < tiny) return std::exp(-2.0); // d = t exp(-t), d'' = 0 at t = 2
+  if (D < 1.0) {
+    const double w = std::sqrt(1.0 - D * D);
+    // d'' = 0: tan(w t) = 2 D w / (2 D^2 - 1) = first positive root; atan2 covers both branches.
+    const double angle = std::atan2(2.0 * D * w, 2.0 * D * D - 1.0);
+    const double t = angle / w;
+    return std::exp(-D * t) * (D / w * std::sin(angle) - std::cos(angle));
+  }
+  const double s = std::sqrt(D * D - 1.0);
+  const double t = std::atanh(2.0 * D * s / (2.0 * D * D - 1.0)) / s;
+  return std::exp(-D * t) * (D / s * std::sinh(s * t) - std::cosh(s * t));
+}
+
 } // namespace drumlin::post

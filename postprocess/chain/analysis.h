@@ -183,4 +183,8 @@ struct ImpactMeasure {
 std::optional<ImpactMeasure> measure_impact(const ChainHistory &history,
                                             const std::vector<ContactEvent> &events);
 
+/// Share of the impact velocity that a single impact without gravity returns, closed form. transition "A" or
+/// "B"; damping_ratio D >= 0. A with D >= 1 gives 0: no rebound.
+double closed_form_restitution(const std::string &transition, double damping_ratio);
+
 } // namespace drumlin::post

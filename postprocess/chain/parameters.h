@@ -58,7 +58,7 @@ struct ChainParameters {
 };
 
 /// A parameter of the chain: its name in decks, commands and files, and its allowed range. The ranges are far
-/// wider than those of rollers and soils; within them no intermediate result of the direct solver overflows
+/// wider than those of rollers and soils; within them no intermediate result of the exact solution overflows
 /// or underflows.
 struct ChainNumber {
   const char *name;

@@ -22,7 +22,6 @@ using Eigen::Vector4d;
 
 // Components of positions and of their velocities.
 enum Component { drum, frame, drum_tilt, frame_tilt };
-constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 using Moments = AxleMoments;
 
@@ -73,10 +72,6 @@ double norm_of(const Matrix4d &matrix, const Vector4d &mass) {
   const Matrix4d scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
   return std::sqrt(eigenvalues_of(scaled.transpose() * scaled).real().maxCoeff());
 }
-
-/// z and z' of the drum at y, positive up.
-double height(const TwoEndsState &state, double y) { return state[drum] + y * state[drum_tilt]; }
-double rise(const TwoEndsState &state, double y) { return state[4 + drum] + y * state[4 + drum_tilt]; }
 
 } // namespace
 
@@ -291,206 +286,100 @@ TwoEndsMatrix ContactSet::carry(const TwoEndsMatrix &differences, double time) c
   return sum;
 }
 
-// ---- the motion ----
+// ---- the machine ----
 
-TwoEndsSolver::TwoEndsSolver(TwoEnds machine) : machine_(std::move(machine)), rest_(TwoEndsState::Zero()) {
+ManyContacts::ManyContacts(TwoEnds machine)
+    : machine_(std::move(machine)), bond_k_(machine_.bonds, &AxleLink::k, every),
+      bond_c_(machine_.bonds, &AxleLink::c, every) {
   if (const std::string fault = machine_.invalid(); !fault.empty()) throw std::invalid_argument(fault);
-  if (machine_.chain.g == 0.0) return;
-  const AxlePositions rest =
-      at_rest(machine_.contacts, machine_.bonds, weight(machine_)[drum], weight(machine_)[frame]);
-  rest_.head<4>() = Eigen::Map<const Vector4d>(rest.data());
 }
 
-const ContactSet &TwoEndsSolver::set(std::uint32_t acting) const {
-  return sets_.try_emplace(acting, machine_, acting).first->second;
-}
-
-TwoEndsMotion TwoEndsSolver::start_at(const TwoEndsState &state) const {
-  TwoEndsMotion motion;
-  motion.state = state;
-  for (std::size_t j = 0; j < machine_.contacts.size(); ++j) {
-    const AxleLink &link = machine_.contacts[j];
-    const double z = height(state, link.y), v = rise(state, link.y);
-    if (z < 0.0)
-      motion.contacts[j].phase = machine_.chain.transition == Transition::B && link.k * z + link.c * v > 0.0
-                                     ? ContactPhase::clamped
-                                     : ContactPhase::contact;
+TwoEndsState ManyContacts::at_rest() const {
+  TwoEndsState state = TwoEndsState::Zero();
+  if (machine_.chain.g > 0.0) {
+    const AxlePositions rest =
+        drumlin::at_rest(machine_.contacts, machine_.bonds, weight(machine_)[drum], weight(machine_)[frame]);
+    state.head<4>() = Eigen::Map<const Vector4d>(rest.data());
   }
-  return motion;
+  state[drum_tilt] += machine_.tilt;
+  state[frame_tilt] += machine_.tilt;
+  return state;
 }
 
-TwoEndsMotion TwoEndsSolver::start(double impact_speed) const {
-  TwoEndsState state = rest_;
-  if (impact_speed > 0.0) {
-    state.setZero();
-    state[4 + drum] = state[4 + frame] = -impact_speed;
-  } else {
-    state[drum_tilt] += machine_.tilt;
-    state[frame_tilt] += machine_.tilt;
-  }
-  TwoEndsMotion motion = start_at(state);
-  for (std::size_t j = 0; j < machine_.contacts.size();
-       ++j) // touching, and moving or about to be pushed down
-    if (height(state, machine_.contacts[j].y) == 0.0 && (impact_speed > 0.0 || machine_.chain.Fw > 0.0))
-      leave(motion, j, 0);
-  return motion;
+TwoEndsState ManyContacts::falling(double speed) {
+  TwoEndsState state = TwoEndsState::Zero();
+  state[4 + drum] = state[4 + frame] = -speed;
+  return state;
 }
 
-// The first event that ends the present phase of a contact, at d = 0 (0) or at F = 0 (1). The function of
-// each is negative before its event and positive after it.
-TwoEndsSolver::Exit TwoEndsSolver::first_exit(const ContactSet::Piece &piece, const AxleLink &link,
-                                              double k_rate, const TwoEndsMotion::Contact &now) const {
-  const bool by_force = machine_.chain.transition == Transition::B && now.phase != ContactPhase::flight;
-  const bool by_gap = now.phase != ContactPhase::contact || machine_.chain.transition == Transition::A;
-  // Just after an event of this contact its function is zero but for rounding.
-  const bool just_left = piece.begin - now.changed <= 1e-12 * machine_.chain.period();
-  std::array<double, most_terms> values{};
-  Exit first;
-  const auto look = [&](int index) {
-    if (just_left && now.boundary == index) values[0] = std::min(0.0, values[0]);
-    const double share = first_upcrossing(values.data(), piece.terms);
-    if (share <= 1.0 && share < first.share) first = {index, share};
-  };
-  if (by_gap) {
-    const double sign = now.phase == ContactPhase::flight ? -1.0 : 1.0;
-    for (std::size_t n = 0; n < piece.terms; ++n)
-      values[n] = sign * (piece.position[n][drum] + link.y * piece.position[n][drum_tilt]);
-    look(0);
-  }
-  if (by_force) {
-    const double sign = now.phase == ContactPhase::contact ? 1.0 : -1.0;
-    const Eigen::Vector2d place = {sign, sign * link.y};
-    piece.law({link.k * place, k_rate * place, link.c * place}, values);
-    look(1);
-  }
-  return first;
+const ContactSet &ManyContacts::Soil::at(std::uint32_t acting, double time) {
+  const TwoEnds &machine = system_.machine_;
+  if (!system_.soil_changes()) return system_.sets_.try_emplace(acting, machine, acting).first->second;
+  contacts_ = machine.contacts_at(time);
+  return of_now_.emplace(machine, acting, time);
 }
 
-double TwoEndsSolver::time_of(const TwoEndsMotion &motion) const {
-  return static_cast<double>(motion.cycle) * machine_.chain.period() + motion.time;
+void ManyContacts::Soil::height(const Piece &piece, std::size_t contact, double sign,
+                                std::array<double, most_terms> &values) const {
+  const double y = contacts_[contact].y;
+  for (std::size_t n = 0; n < piece.terms; ++n)
+    values[n] = sign * (piece.position[n][drum] + y * piece.position[n][drum_tilt]);
 }
 
-ContactChange TwoEndsSolver::leave(TwoEndsMotion &motion, std::size_t contact, int exit) const {
-  const AxleLink link = machine_.contacts_at(time_of(motion))[contact];
-  TwoEndsMotion::Contact &now = motion.contacts[contact];
-  ContactChange change;
-  change.contact = contact;
-  change.from = now.phase;
-  change.time = motion.time;
-  change.overlap_rate = 0.0 - rise(motion.state, link.y);
-  switch (now.phase) {
-  case ContactPhase::flight:
-    change.to = ContactPhase::contact;
-    change.force = link.c * change.overlap_rate + 0.0;
-    change.jump = link.c;
-    break;
-  case ContactPhase::clamped:
-    change.to = exit == 0 ? ContactPhase::flight : ContactPhase::contact;
-    break;
-  case ContactPhase::contact:
-    if (machine_.chain.transition == Transition::A) {
-      change.to = ContactPhase::flight;
-      change.force = link.c * change.overlap_rate + 0.0;
-      change.jump = -link.c;
-    } else if (link.c > 0.0 && height(motion.state, link.y) < 0.0) {
-      change.to = ContactPhase::clamped;
-    } else { // without damping F = 0 and d = 0 are one
-      change.to = ContactPhase::flight;
-      exit = 0;
-    }
-    break;
-  }
-  if (exit != 0) change.overlap = 0.0 - height(motion.state, link.y);
-  now.phase = change.to;
-  now.changed = motion.time;
-  // With damping a make at d = 0 is not at F = 0: no exit function of B's contact is zero there.
-  const bool force_next = machine_.chain.transition == Transition::B && change.to == ContactPhase::contact;
-  now.boundary = exit == 1 ? 1 : !force_next ? 0 : link.c == 0.0 ? 1 : -1;
-  return change;
+void ManyContacts::Soil::law(const Piece &piece, std::size_t contact, double sign,
+                             std::array<double, most_terms> &values) const {
+  const AxleLink &link = contacts_[contact];
+  const double k_rate =
+      system_.soil_changes() ? rate_of(link, contacts_.size(), *system_.machine_.section) : 0.0;
+  const Eigen::Vector2d place = {sign, sign * link.y};
+  piece.law({link.k * place, k_rate * place, link.c * place}, values);
 }
 
-void TwoEndsSolver::drive_over(const WaySection &section, TwoEndsMotion &motion, TwoEndsObserver *observer) {
-  const std::vector<AxleLink> before = machine_.contacts_at(time_of(motion));
+void ManyContacts::drive_over(const WaySection &section) {
   machine_ = over(std::move(machine_), section);
   sets_.clear();
-  for (std::size_t j = 0; j < before.size(); ++j) {
-    const AxleLink &link = machine_.contacts[j];
-    TwoEndsMotion::Contact &now = motion.contacts[j];
-    const double rounding = 1e-12;
-    if (std::fabs(link.k - before[j].k) <= rounding * link.k &&
-        std::fabs(link.c - before[j].c) <= rounding * link.c)
-      continue;
-    if (now.boundary == 1) now.boundary = -1; // where F was 0, it no longer is
-    const double z = height(motion.state, link.y), rate = rise(motion.state, link.y);
-    if (machine_.chain.transition == Transition::A || z >= 0.0) continue;
-    const auto law = [&](const AxleLink &of) { return 0.0 - (of.k * z + of.c * rate); };
-    const ContactPhase phase = law(link) > 0.0 ? ContactPhase::contact : ContactPhase::clamped;
-    if (phase == now.phase) continue;
-    const bool make = phase == ContactPhase::contact;
-    if (observer != nullptr)
-      observer->change({j, now.phase, phase, motion.time, 0.0 - z, 0.0 - rate,
-                        std::max(0.0, law(make ? link : before[j])), 0.0});
-    now = {phase, -1, motion.time};
-  }
 }
 
-void TwoEndsSolver::finish_cycle(TwoEndsMotion &motion, TwoEndsObserver *observer) const {
-  const double end = machine_.chain.period();
-  go_to(end, motion, observer);
-  motion.time = 0.0;
-  ++motion.cycle;
-  for (TwoEndsMotion::Contact &contact : motion.contacts)
-    contact.changed -= end;
-}
-
-void TwoEndsSolver::go_to(double end, TwoEndsMotion &motion, TwoEndsObserver *observer) const {
-  constexpr int most_changes = 100'000;
-  const double nothing = 1e-15 * machine_.chain.period();
-  const bool soil_changes = machine_.section && !machine_.section->constant();
-  const std::size_t count = machine_.contacts.size();
-  std::vector<AxleLink> contacts = machine_.contacts;
-  std::optional<ContactSet> of_now; // where the soil changes
-  ContactSet::Piece piece;
-  std::array<Exit, most_contacts> exits;
-  int changes = 0;
-  while (end - motion.time > nothing) {
-    std::uint32_t acting = 0;
-    for (std::size_t j = 0; j < count; ++j)
-      if (motion.contacts[j].phase == ContactPhase::contact) acting |= 1U << j;
-    if (soil_changes) {
-      contacts = machine_.contacts_at(time_of(motion));
-      of_now.emplace(machine_, acting, time_of(motion));
-    }
-    const ContactSet &dynamics = soil_changes ? *of_now : set(acting);
-    const double left = end - motion.time;
-    const bool last = left <= dynamics.longest_piece();
-    const double length = last ? left : dynamics.longest_piece();
-    const double angle = machine_.chain.omega * motion.time;
-    piece.begin = motion.time;
-    dynamics.expand(piece, motion.state, length, std::sin(angle), std::cos(angle));
-    piece.end = 2.0;
-    for (std::size_t j = 0; j < count; ++j) {
-      const double k_rate = soil_changes ? rate_of(contacts[j], count, *machine_.section) : 0.0;
-      exits[j] = first_exit(piece, contacts[j], k_rate, motion.contacts[j]);
-      piece.end = std::min(piece.end, exits[j].share);
-    }
-    const bool event = piece.end <= 1.0;
-    if (!event) piece.end = 1.0;
-    if (observer != nullptr && piece.end > 0.0) observer->piece(piece, dynamics, acting);
-    motion.state = piece.state(piece.end);
-    motion.time = !event && last ? end : motion.time + length * piece.end;
-    if (!event) continue;
-    // Contacts whose motion is the same change together.
-    for (std::size_t j = 0; j < count; ++j) {
-      if (exits[j].index < 0 || exits[j].share > piece.end + 1e-15) continue;
-      const ContactChange change = leave(motion, j, exits[j].index);
-      if (observer != nullptr) observer->change(change);
-      if (++changes > most_changes)
-        throw std::runtime_error(
-            fmt::format("more than {} contacts made and broken in cycle {}", most_changes, motion.cycle + 1));
+void ManyContacts::record(ChainHistory &h, const ContactSet &set, std::uint32_t acting, const TwoEndsState &y,
+                          double sine, double time, double since) const {
+  const std::vector<AxleLink> contacts = machine_.contacts_at(time);
+  const bool clipped = machine_.chain.transition == Transition::B;
+  double F_left = 0.0, F_right = 0.0;
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
+    if (((acting >> j) & 1U) == 0) continue;
+    const AxleLink &link = contacts[j];
+    double force = -(link.k * height(y, link) + link.c * rise(y, link));
+    if (clipped) force = std::max(0.0, force);
+    if (link.y == 0.0) {
+      F_left += 0.5 * force;
+      F_right += 0.5 * force;
+    } else {
+      (link.y < 0.0 ? F_left : F_right) += force;
     }
   }
+  const Vector4d a = set.acceleration(y, sine, since);
+  h.x_drum.push_back(y[drum]);
+  h.v_drum.push_back(y[4 + drum]);
+  h.a_drum.push_back(a[drum]);
+  h.x_frame.push_back(y[frame]);
+  h.v_frame.push_back(y[4 + frame]);
+  h.a_frame.push_back(a[frame]);
+  h.F_contact.push_back(F_left + F_right);
+  h.F_excitation.push_back(machine_.chain.Fw * sine);
+  h.F_bond.push_back(
+      bond_k_.all * (y[frame] - y[drum]) + bond_k_.first * (y[frame_tilt] - y[drum_tilt]) +
+      (bond_c_.all * (y[4 + frame] - y[4 + drum]) + bond_c_.first * (y[4 + frame_tilt] - y[4 + drum_tilt])));
+  h.theta_drum.push_back(y[drum_tilt]);
+  h.omega_drum.push_back(y[4 + drum_tilt]);
+  h.theta_frame.push_back(y[frame_tilt]);
+  h.omega_frame.push_back(y[4 + frame_tilt]);
+  h.a_left.push_back(a[drum] - machine_.sensor * a[drum_tilt]);
+  h.a_right.push_back(a[drum] + machine_.sensor * a[drum_tilt]);
+  h.F_left.push_back(F_left);
+  h.F_right.push_back(F_right);
 }
+
+template class SolverOf<ManyContacts>;
 
 namespace {
 
@@ -503,8 +392,8 @@ public:
   void piece(const ContactSet::Piece &piece, const ContactSet &set, std::uint32_t /*acting*/) override {
     matrix_ = set.carry(matrix_, piece.length * piece.end);
   }
-  // Saltation: the neighbour that comes later is without the dashpot's force for that time (see PhaseChange
-  // of closed_form.h).
+  // Saltation: the neighbour that comes later is without the dashpot's force for that time (see
+  // ContactChange).
   void change(const ContactChange &change) override {
     if (change.jump == 0.0) return;
     const double y = machine_.contacts[change.contact].y;
@@ -521,140 +410,14 @@ private:
 } // namespace
 
 TwoEndsMatrix TwoEndsSolver::monodromy(TwoEndsMotion &motion) const {
-  Differences differences(machine_);
+  Differences differences(machine());
   finish_cycle(motion, &differences);
   return differences.matrix();
 }
 
-// ---- history ----
+// ---- whether it repeats ----
 
 namespace {
-
-// Samples and events of cycles, and what is asked of each cycle.
-class Recorder : public TwoEndsObserver {
-public:
-  Recorder(const TwoEnds &machine, const DirectOptions &options)
-      : machine_(machine), options_(options), k_(machine.bonds, &AxleLink::k, every),
-        c_(machine.bonds, &AxleLink::c, every), period_(machine.chain.period()),
-        end_(static_cast<double>(options.last_point()) / static_cast<double>(options.points_per_cycle()) *
-             period_),
-        last_row_(options.last_point() / options.points_per_sample()) {
-    for (const HistoryColumn &column : history_columns)
-      if (column.group != ColumnGroup::way || !options.way.empty())
-        (result_.history.*column.values).reserve(static_cast<std::size_t>(last_row_) + 1);
-  }
-
-  void begin_cycle(long cycle) {
-    start_ = static_cast<double>(cycle) * period_;
-    row_of_cycle_ = cycle * options_.samples_per_cycle;
-    next_ = 0;
-    summary_ = {static_cast<int>(cycle) + 1, start_, no_limit, -no_limit, no_limit, -no_limit, 0.0, 0, 0};
-  }
-  void end_cycle() {
-    if (machine_.chain.transition == Transition::B)
-      summary_.F_contact_min = std::max(0.0, summary_.F_contact_min);
-    summary_.contact_share = std::min(1.0, summary_.contact_share / period_);
-    result_.cycles.push_back(summary_);
-  }
-
-  void piece(const ContactSet::Piece &piece, const ContactSet &set, std::uint32_t acting) override {
-    ++result_.cost.steps;
-    summarize(piece, set, acting);
-    for (; next_ < options_.samples_per_cycle && row_of_cycle_ + next_ <= last_row_; ++next_) {
-      const double t = next_ * period_ / options_.samples_per_cycle;
-      const double s = (t - piece.begin) / piece.length;
-      if (s >= piece.end) break;
-      const double since = std::max(0.0, s) * piece.length;
-      row(set, acting, t, piece.state(std::max(0.0, s)), since);
-    }
-  }
-  void change(const ContactChange &change) override {
-    const bool make = change.to == ContactPhase::contact;
-    if (!make && change.from != ContactPhase::contact) return;
-    if (start_ + change.time > end_) return;
-    ++(make ? summary_.makes : summary_.breaks);
-    if (result_.events.size() >= DirectOptions::most_events)
-      throw std::runtime_error(fmt::format("more than {} contacts made and broken up to t = {} s",
-                                           DirectOptions::most_events, start_ + change.time));
-    result_.events.push_back({start_ + change.time, make, change.overlap, change.overlap_rate, change.force,
-                              1, 2 + static_cast<long>(change.contact)});
-  }
-  /// \param since the time of the set's contacts [s]
-  void row(const ContactSet &set, std::uint32_t acting, double t, const TwoEndsState &y, double since = 0.0) {
-    const std::vector<AxleLink> contacts = machine_.contacts_at(start_ + t);
-    const bool clipped = machine_.chain.transition == Transition::B;
-    double F_left = 0.0, F_right = 0.0;
-    for (std::size_t j = 0; j < contacts.size(); ++j) {
-      if (((acting >> j) & 1U) == 0) continue;
-      const AxleLink &link = contacts[j];
-      double force = -(link.k * height(y, link.y) + link.c * rise(y, link.y));
-      if (clipped) force = std::max(0.0, force);
-      if (link.y == 0.0) {
-        F_left += 0.5 * force;
-        F_right += 0.5 * force;
-      } else {
-        (link.y < 0.0 ? F_left : F_right) += force;
-      }
-    }
-    const double sine = std::sin(machine_.chain.omega * t);
-    const Vector4d a = set.acceleration(y, sine, since);
-    ChainHistory &h = result_.history;
-    h.time.push_back(start_ + t);
-    h.x_drum.push_back(y[drum]);
-    h.v_drum.push_back(y[4 + drum]);
-    h.a_drum.push_back(a[drum]);
-    h.x_frame.push_back(y[frame]);
-    h.v_frame.push_back(y[4 + frame]);
-    h.a_frame.push_back(a[frame]);
-    h.F_contact.push_back(F_left + F_right);
-    h.F_excitation.push_back(machine_.chain.Fw * sine);
-    h.F_bond.push_back(
-        k_.all * (y[frame] - y[drum]) + k_.first * (y[frame_tilt] - y[drum_tilt]) +
-        (c_.all * (y[4 + frame] - y[4 + drum]) + c_.first * (y[4 + frame_tilt] - y[4 + drum_tilt])));
-    h.theta_drum.push_back(y[drum_tilt]);
-    h.omega_drum.push_back(y[4 + drum_tilt]);
-    h.theta_frame.push_back(y[frame_tilt]);
-    h.omega_frame.push_back(y[4 + frame_tilt]);
-    h.a_left.push_back(a[drum] - machine_.sensor * a[drum_tilt]);
-    h.a_right.push_back(a[drum] + machine_.sensor * a[drum_tilt]);
-    h.F_left.push_back(F_left);
-    h.F_right.push_back(F_right);
-    if (machine_.section) {
-      h.s.push_back(machine_.section->place(start_ + t));
-      h.pass.push_back(machine_.section->pass);
-    }
-  }
-  DirectResult take() { return std::move(result_); }
-
-private:
-  // Extremes and time in contact of a piece, up to its end.
-  void summarize(const ContactSet::Piece &piece, const ContactSet &set, std::uint32_t acting) {
-    std::array<double, most_terms> a{};
-    std::array<double, most_terms> F{};
-    piece.law(set.springs(), F);
-    double power = 1.0; // of piece.end
-    for (std::size_t n = 0; n < piece.terms; ++n, power *= piece.end) {
-      F[n] *= -power;
-      if (n + 1 < piece.terms)
-        a[n] = static_cast<double>(n + 1) * piece.velocity[n + 1][drum] / piece.length * power;
-    }
-    widen(a, piece.terms - 1, summary_.a_drum_min, summary_.a_drum_max);
-    widen(F, piece.terms, summary_.F_contact_min, summary_.F_contact_max);
-    if (acting != 0) summary_.contact_share += piece.length * piece.end;
-  }
-
-  const TwoEnds &machine_;
-  const DirectOptions &options_;
-  Moments k_, c_; // of the bonds
-  double period_;
-  double end_;
-  long last_row_;
-  int next_ = 0;
-  long row_of_cycle_ = 0;
-  double start_ = 0.0;
-  CycleSummary summary_;
-  DirectResult result_;
-};
 
 constexpr std::size_t longest_orbit = 8, measured_cycles = 100, least_measured = 20;
 
@@ -719,85 +482,38 @@ TwoEndsOrbit orbit_of(const TwoEndsSolver &solver, const std::vector<TwoEndsMoti
 
 } // namespace
 
-std::string too_much_work(const TwoEnds &machine, const DirectOptions &options) {
+std::string too_much_work(const TwoEnds &machine, const ExactOptions &options) {
   TwoEnds stiffest = machine;
-  double most_pieces = 2e7;
+  double most = ExactOptions::most_pieces;
   if (!options.way.empty()) {
-    WaySection most;
+    WaySection worst;
     for (const WaySection &section : options.way) {
       for (const WaySection &here : {section, section.from(section.end)}) {
-        most.k_left = std::max(most.k_left, here.k_left);
-        most.k = std::max(most.k, here.k - here.k_left); // of the right half, here
-        most.D = std::max(most.D, here.D);
+        worst.k_left = std::max(worst.k_left, here.k_left);
+        worst.k = std::max(worst.k, here.k - here.k_left); // of the right half, here
+        worst.D = std::max(worst.D, here.D);
       }
-      if (!section.constant()) most_pieces = 2e6; // each takes longer
+      if (!section.constant()) most = 2e6; // each takes longer
     }
-    most.k += most.k_left;
-    stiffest = over(std::move(stiffest), most);
+    worst.k += worst.k_left;
+    stiffest = over(std::move(stiffest), worst);
   }
   const double per_cycle = machine.chain.period() / ContactSet(stiffest, ~0U).longest_piece() + 1.0;
-  if (std::ceil(options.cycles) * per_cycle <= most_pieces) return {};
-  return refusal(
-      "cycles", options.cycles,
-      fmt::format("at most {:.3g} of this machine and soil, whose fastest motion needs {:.3g} steps "
-                  "per cycle",
-                  most_pieces / per_cycle, per_cycle));
+  return too_many_pieces(options, per_cycle, most);
 }
 
-TwoEndsResult solve_two_ends(const TwoEnds &machine, const DirectOptions &options,
+TwoEndsResult solve_two_ends(const TwoEnds &machine, const ExactOptions &options,
                              const SolverProgress &progress) {
   if (const std::string fault = options.invalid(); !fault.empty()) throw std::invalid_argument(fault);
-  std::vector<WaySection> way = options.way;
-  const bool drives = !way.empty();
-  if (drives) { // its last cycle is followed to its end: the soil then stays as it is
-    WaySection &behind = way.emplace_back(way.back().from(way.back().end));
-    behind.velocity = behind.k_rate = behind.D_rate = behind.k_left_rate = 0.0;
-  }
-  auto section = way.begin();
-  TwoEndsSolver solver(drives ? over(machine, *section) : machine);
-  Recorder recorder(solver.machine(), options);
-  TwoEndsMotion motion = solver.start(options.impact_speed);
-  std::vector<TwoEndsMotion> motions = {motion};
-  const long whole = options.last_point() / options.points_per_cycle();
-  const bool part = whole == 0 || options.last_point() % options.points_per_cycle() != 0;
-  const double period = machine.chain.period();
-  const auto acting = [&] {
-    std::uint32_t bits = 0;
-    for (std::size_t j = 0; j < machine.contacts.size(); ++j)
-      if (motion.contacts[j].phase == ContactPhase::contact) bits |= 1U << j;
-    return bits;
-  };
-  for (long cycle = 0; cycle < whole + part; ++cycle) {
-    recorder.begin_cycle(cycle);
-    if (cycle == 0)
-      for (std::size_t j = 0; j < machine.contacts.size(); ++j)
-        if (motion.contacts[j].changed == 0.0) { // made at the start
-          const AxleLink &link = solver.machine().contacts[j];
-          const double rate = 0.0 - rise(motion.state, link.y);
-          recorder.change(
-              {j, ContactPhase::flight, ContactPhase::contact, 0.0, 0.0, rate, link.c * rate + 0.0, link.c});
-        }
-    while (way.end() - section > 1) {
-      const double end = section->end - static_cast<double>(cycle) * period;
-      if (end >= period) break;
-      solver.go_to(end, motion, &recorder);
-      solver.drive_over(*++section, motion, &recorder);
-    }
-    solver.finish_cycle(motion, &recorder);
-    if (cycle < whole) {
-      recorder.end_cycle();
-      if (motions.size() > measured_cycles) motions.erase(motions.begin());
-      motions.push_back(motion);
-    }
-    if (progress) progress(std::min(1.0, static_cast<double>(cycle + 1) / options.cycles));
-  }
-  if (!part) {
-    recorder.begin_cycle(whole);
-    recorder.row(ContactSet(solver.machine(), acting(), static_cast<double>(whole) * period), acting(), 0.0,
-                 motion.state);
-  }
+  const bool drives = !options.way.empty();
+  TwoEndsSolver solver(drives ? over(machine, options.way.front()) : machine);
+  std::vector<TwoEndsMotion> motions = {solver.start(options.impact_speed)};
   TwoEndsResult result;
-  static_cast<DirectResult &>(result) = recorder.take();
+  static_cast<ExactSolution &>(result) =
+      solved<ManyContacts>(solver, options, 0, progress, [&motions](const TwoEndsMotion &motion) {
+        if (motions.size() > measured_cycles) motions.erase(motions.begin());
+        motions.push_back(motion);
+      });
   if (!drives) result.orbit = orbit_of(solver, motions);
   return result;
 }

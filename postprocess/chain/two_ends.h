@@ -1,7 +1,6 @@
 // A drum and a frame that move vertically and tilt about the way of travel, on contacts along the width of
-// the drum, solved in closed form. Each contact is made and broken by itself (transition A or B, as in
-// chain/parameters.h). Between two of these events the motion is linear with a sinusoidal force: it is
-// continued by power series, and events are found, as in chain/closed_form.h.
+// the drum, as a System of chain/exact_motion.h. Each contact is made and broken by itself (transition A or
+// B, as in chain/parameters.h).
 //
 //     m2 z2'' = -m2 g + sum F_j + sum B_i - F_e          I2 th2'' = sum y_j F_j + sum y_i B_i - y_e F_e
 //     m3 z3'' = -m3 g           - sum B_i                I3 th3'' =             - sum y_i B_i
@@ -13,9 +12,8 @@
 // power series in it: so is the motion.
 #pragma once
 
-#include "chain/closed_form.h"
-#include "chain/direct_solver.h"
 #include "chain/driven_way.h"
+#include "chain/exact_motion.h"
 #include "chain/parameters.h"
 #include "files/axle_links.h"
 
@@ -92,7 +90,7 @@ public:
   /// \param time of the contacts, if they change along the way, since the start of the excitation [s]
   ContactSet(const TwoEnds &machine, std::uint32_t acting, double time = 0.0);
 
-  double longest_piece() const { return std::min(most_reach / rate_, longest_change_); }
+  double longest_piece(double /*since*/ = 0.0) const { return std::min(most_reach / rate_, longest_change_); }
   /// Motion over a piece as a polynomial in s: position[n] and velocity[n] times s^n, as MotionPiece has it.
   struct Piece {
     std::array<Eigen::Vector4d, most_terms> position, velocity;
@@ -103,6 +101,7 @@ public:
     bool changes = false;                        ///< whether the contacts change over it
 
     TwoEndsState state(double s) const;
+    double drum_velocity(std::size_t n) const { return velocity[n][0]; } ///< times s^n
     /// k z + c z' of contacts, whose k at the start of the piece is given.
     void law(const AxleSprings &springs, std::array<double, most_terms> &values) const;
   };
@@ -111,8 +110,8 @@ public:
   Eigen::Vector4d acceleration(const TwoEndsState &state, double sine, double since = 0.0) const;
   /// exp(A time) applied to small differences of two motions; not where contacts change.
   TwoEndsMatrix carry(const TwoEndsMatrix &differences, double time) const;
-  /// Of the contacts that act.
-  const AxleSprings &springs() const { return springs_; }
+  /// k z + c z' of the contacts that act over a piece.
+  void law(const Piece &piece, std::array<double, most_terms> &values) const { piece.law(springs_, values); }
 
 private:
   double damping_over_stiffness(double since) const;
@@ -131,76 +130,77 @@ private:
   double longest_change_ = std::numeric_limits<double>::infinity(); ///< [s]
 };
 
-/// Present state of a motion.
-struct TwoEndsMotion {
-  TwoEndsState state = TwoEndsState::Zero();
-  long cycle = 0;    ///< number of completed cycles
-  double time = 0.0; ///< since the start of the cycle [s]
-  struct Contact {
-    ContactPhase phase = ContactPhase::flight;
-    int boundary = -1;     ///< index of the event condition that its last event left at zero; -1: none
-    double changed = -1.0; ///< time of that event since the start of the cycle [s]
-  };
-  std::array<Contact, most_contacts> contacts;
-};
-
-/// A contact that is made or broken, or whose overlap without force ends.
-struct ContactChange {
-  std::size_t contact = 0;
-  ContactPhase from = ContactPhase::contact, to = ContactPhase::contact;
-  double time = 0.0;         ///< since the start of the cycle [s]
-  double overlap = 0.0;      ///< [m]
-  double overlap_rate = 0.0; ///< [m/s]
-  double force = 0.0;        ///< just after a make or just before a break [N]
-  double jump =
-      0.0; ///< damping coefficient that begins (positive) or ends to act with an overlap rate [N s/m]
-};
-
-/// Receives each piece and each change of a contact, in the order of time.
-class TwoEndsObserver {
+/// One machine on its soil.
+class ManyContacts {
 public:
-  virtual ~TwoEndsObserver() = default;
-  virtual void piece(const ContactSet::Piece &piece, const ContactSet &set, std::uint32_t acting) = 0;
-  virtual void change(const ContactChange &change) = 0;
-};
+  using State = TwoEndsState;
+  using Piece = ContactSet::Piece;
+  using Dynamics = ContactSet;
+  static constexpr std::size_t most_contacts = post::most_contacts;
+  static constexpr bool soil_may_change = true;
 
-/// Solves one machine on one soil.
-class TwoEndsSolver {
-public:
   /// std::invalid_argument for a machine that cannot be solved.
-  explicit TwoEndsSolver(TwoEnds machine);
+  explicit ManyContacts(TwoEnds machine);
 
   const TwoEnds &machine() const { return machine_; }
-  /// Static equilibrium with the machine's tilt, or an impact without it.
-  TwoEndsMotion start(double impact_speed = 0.0) const;
-  /// A motion at the start of a cycle: the phases of the contacts follow from the state.
-  TwoEndsMotion start_at(const TwoEndsState &state) const;
-  /// Continues the motion to the end of the cycle. Throws std::runtime_error if it has more than 100,000
-  /// changes of contacts in it.
-  void finish_cycle(TwoEndsMotion &motion, TwoEndsObserver *observer = nullptr) const;
-  /// The same to a time within the cycle [s].
-  void go_to(double end, TwoEndsMotion &motion, TwoEndsObserver *observer = nullptr) const;
-  /// The soil is now that of another section of the way. Under B a step ends a contact whose force it makes a
-  /// tension, and begins one where it makes a compression of an overlap without force.
-  void drive_over(const WaySection &section, TwoEndsMotion &motion, TwoEndsObserver *observer = nullptr);
-  /// The matrix that maps small differences of two motions through the next cycle, which the motion goes.
-  TwoEndsMatrix monodromy(TwoEndsMotion &motion) const;
+  const ChainParameters &chain() const { return machine_.chain; }
+  std::size_t contacts() const { return machine_.contacts.size(); }
+  /// \param time since the start of the excitation [s]
+  AxleLink link(std::size_t contact, double time) const {
+    return soil_changes() ? machine_.contacts_at(time)[contact] : machine_.contacts[contact];
+  }
+  /// z and z' of the drum, positive up.
+  static double height(const State &state, const AxleLink &link) { return state[0] + link.y * state[2]; }
+  static double rise(const State &state, const AxleLink &link) { return state[4] + link.y * state[6]; }
+  static void level(State & /*state*/) {} // no coordinate of it is the height of one contact
+  /// An event of another contact may follow at once, where the function is already below its rounding.
+  static double just_after_event(double value) { return std::min(0.0, value); }
+  /// With the machine's tilt.
+  State at_rest() const;
+  static State falling(double speed);
+
+  class Soil {
+  public:
+    explicit Soil(const ManyContacts &system) : system_(system), contacts_(system.machine_.contacts) {}
+    const ContactSet &at(std::uint32_t acting, double time);
+    void height(const Piece &piece, std::size_t contact, double sign,
+                std::array<double, most_terms> &values) const;
+    void law(const Piece &piece, std::size_t contact, double sign,
+             std::array<double, most_terms> &values) const;
+
+  private:
+    const ManyContacts &system_;
+    std::vector<AxleLink> contacts_;
+    std::optional<ContactSet> of_now_; ///< where the soil changes
+  };
+
+  const WaySection *section() const { return machine_.section ? &*machine_.section : nullptr; }
+  void drive_over(const WaySection &section);
+  /// A row of a history with the columns of both ends, but for its time and place.
+  void record(ChainHistory &history, const ContactSet &set, std::uint32_t acting, const State &state,
+              double sine, double time, double since) const;
 
 private:
-  struct Exit {
-    int index = -1;
-    double share = 2.0;
-  };
-  const ContactSet &set(std::uint32_t acting) const;
-  double time_of(const TwoEndsMotion &motion) const;
-  Exit first_exit(const ContactSet::Piece &piece, const AxleLink &link, double k_rate,
-                  const TwoEndsMotion::Contact &now) const;
-  ContactChange leave(TwoEndsMotion &motion, std::size_t contact, int exit) const;
+  bool soil_changes() const { return machine_.section && !machine_.section->constant(); }
 
   TwoEnds machine_;
-  TwoEndsState rest_;                                ///< static equilibrium
+  AxleMoments bond_k_, bond_c_;
   mutable std::map<std::uint32_t, ContactSet> sets_; ///< made when they are met
 };
+
+using TwoEndsMotion = MotionOf<ManyContacts>;
+using TwoEndsObserver = ObserverOf<ManyContacts>;
+
+/// Solves one machine.
+class TwoEndsSolver : public SolverOf<ManyContacts> {
+public:
+  explicit TwoEndsSolver(TwoEnds machine) : SolverOf(ManyContacts(std::move(machine))) {}
+  const TwoEnds &machine() const { return system_.machine(); }
+  /// The matrix that maps small differences of two motions through the next cycle, which the motion goes.
+  TwoEndsMatrix monodromy(TwoEndsMotion &motion) const;
+};
+
+extern template class SolverOf<ManyContacts>;
 
 /// Whether the last cycles repeat, and how small differences of two motions grow.
 struct TwoEndsOrbit {
@@ -211,17 +211,16 @@ struct TwoEndsOrbit {
   double of_tilt = -1.0; ///< the same of tilting alone; negative where it is coupled with bounce
 };
 
-struct TwoEndsResult : DirectResult {
+struct TwoEndsResult : ExactSolution {
   TwoEndsOrbit orbit;
 };
 
 /// Empty if the solution takes no more than a minute; else one line that names the number of cycles.
-std::string too_much_work(const TwoEnds &machine, const DirectOptions &options);
+std::string too_much_work(const TwoEnds &machine, const ExactOptions &options);
 
 /// The history with the columns of both ends; in its events the id of contact j, counted from 1, is 1 + j. A
-/// roller that drives over options.way has no orbit. `rtol` has no effect. Throws std::invalid_argument if it
-/// cannot be solved.
-TwoEndsResult solve_two_ends(const TwoEnds &machine, const DirectOptions &options,
+/// roller that drives over options.way has no orbit. Throws std::invalid_argument if it cannot be solved.
+TwoEndsResult solve_two_ends(const TwoEnds &machine, const ExactOptions &options,
                              const SolverProgress &progress = {});
 
 } // namespace drumlin::post

@@ -18,7 +18,7 @@ void add_calibrate_command(CLI::App &app, Session &session);
 /// them. Writes results/demo and report in the working folder.
 void add_demo_command(CLI::App &app, Session &session);
 
-/// `exact`: solves a case of the chain by the direct solver. Writes chain.csv, events.csv, cycles.csv and
+/// `exact`: the exact solution of the chain. Writes chain.csv, events.csv, cycles.csv and
 /// parameters.csv into the folder --out, all or none.
 void add_exact_command(CLI::App &app, Session &session);
 void add_way_command(CLI::App &app, Session &session);

@@ -1,7 +1,6 @@
 #include "commands/commands.h"
 
-#include "chain/closed_form.h"
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "chain/driven_way.h"
 #include "chain/parameters.h"
 #include "chain/two_ends.h"
@@ -42,7 +41,6 @@ struct Arguments {
   bool turn_round = false;
   std::optional<std::string> contacts, tilt;
   std::string samples_per_cycle = "200";
-  std::optional<std::string> rtol;
   std::string impact_speed = "0";
   std::string out;
 };
@@ -69,8 +67,7 @@ struct Task {
   std::optional<Ends> ends;
   std::optional<double> me_re; ///< kg m, from which Fw follows; none: Fw is given
   std::optional<GivenRoller> roller;
-  DirectOptions options;
-  bool closed_form = true;
+  ExactOptions options;
   fs::path out;
 };
 
@@ -79,7 +76,7 @@ constexpr std::array<const char *, 4> file_names = {"chain.csv", "events.csv", "
 
 /// The roller that drives, if it does, and its time in the options.
 std::optional<Drive> judge_drive(const Arguments &arguments, const ChainParameters &parameters,
-                                 DirectOptions &options) {
+                                 ExactOptions &options) {
   if (!arguments.way) {
     if (arguments.speed) throw UsageError(refusal("--speed", *arguments.speed, "a number with --way FILE"));
     if (arguments.passes)
@@ -110,10 +107,10 @@ std::optional<Drive> judge_drive(const Arguments &arguments, const ChainParamete
   if (arguments.passes) drive.passes = static_cast<int>(count_option("--passes", *arguments.passes, 1, 1000));
   const double length = drive.way.back().s - drive.way.front().s;
   options.cycles = drive.passes * length / drive.speed / parameters.period();
-  if (!DirectOptions::cycles_range.holds(options.cycles))
+  if (!ExactOptions::cycles_range.holds(options.cycles))
     throw UsageError(refusal("--speed", *arguments.speed,
                              fmt::format("one with which {} passes over {:g} m take at most {:g} cycles",
-                                         drive.passes, length, DirectOptions::cycles_range.most)));
+                                         drive.passes, length, ExactOptions::cycles_range.most)));
   constexpr std::size_t most_sections = 1'000'000;
   if (drive.way.size() * static_cast<std::size_t>(drive.passes) > most_sections)
     throw UsageError(refusal("--passes", *arguments.passes,
@@ -127,10 +124,8 @@ void judge_with_contacts(const Arguments &arguments, bool file) {
   const std::string &contacts = *arguments.contacts;
   if (arguments.way && file)
     throw UsageError(refusal("--contacts", contacts, "a whole number with --way, which has k and D"));
-  if (arguments.rtol)
-    throw UsageError(refusal("--rtol", *arguments.rtol, "none with --contacts, solved in closed form"));
   if (arguments.tilt &&
-      number_option("--impact-speed", arguments.impact_speed, DirectOptions::impact_speed_range) > 0.0)
+      number_option("--impact-speed", arguments.impact_speed, ExactOptions::impact_speed_range) > 0.0)
     throw UsageError(refusal("--tilt", *arguments.tilt, "none with --impact-speed"));
   for (const char *name : {"k", "D"})
     if (const auto given = given_number(arguments.chain, name); given && file)
@@ -140,7 +135,7 @@ void judge_with_contacts(const Arguments &arguments, bool file) {
 
 /// The drum with two ends, if it is asked for.
 std::optional<Ends> judge_ends(const Arguments &arguments, const AskedChain &chain,
-                               const DirectOptions &options) {
+                               const ExactOptions &options) {
   if (!arguments.contacts) {
     if (arguments.tilt) throw UsageError(refusal("--tilt", *arguments.tilt, "a number with --contacts"));
     return std::nullopt;
@@ -192,21 +187,19 @@ Task judge(const Arguments &arguments) {
   task.parameters = chain.parameters;
   task.me_re = chain.me_re;
   task.roller = chain.roller;
-  DirectOptions &options = task.options;
+  ExactOptions &options = task.options;
   task.drive = judge_drive(arguments, task.parameters, options);
   if (arguments.cycles)
-    options.cycles = number_option("--cycles", *arguments.cycles, DirectOptions::cycles_range);
+    options.cycles = number_option("--cycles", *arguments.cycles, ExactOptions::cycles_range);
   options.samples_per_cycle =
-      count_option("--samples-per-cycle", arguments.samples_per_cycle, 1, DirectOptions::most_samples);
-  if (arguments.rtol) options.rtol = number_option("--rtol", *arguments.rtol, DirectOptions::rtol_range);
+      count_option("--samples-per-cycle", arguments.samples_per_cycle, 1, ExactOptions::most_samples);
   options.impact_speed =
-      number_option("--impact-speed", arguments.impact_speed, DirectOptions::impact_speed_range);
+      number_option("--impact-speed", arguments.impact_speed, ExactOptions::impact_speed_range);
   std::string fault = options.invalid();
   task.ends = judge_ends(arguments, chain, options);
   if (fault.empty())
     fault = task.ends ? too_much_work(task.ends->machine, options) : too_much_work(task.parameters, options);
   if (!fault.empty()) throw UsageError("--" + fault);
-  task.closed_form = task.ends || (!arguments.rtol && closed_form_suffices(task.parameters, options));
   task.out = output_folder_option("--out", arguments.out);
   std::vector<GivenPath> given = files_of(arguments.chain.roller);
   if (arguments.way) given.push_back({"--way", *arguments.way});
@@ -222,13 +215,10 @@ Task judge(const Arguments &arguments) {
 }
 
 std::vector<std::pair<std::string, std::string>> record(const Arguments &arguments, const Task &task,
-                                                        const DirectCost &cost, const std::string &command) {
+                                                        const std::string &command) {
   const ChainParameters &p = task.parameters;
   std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
-  values.insert(values.begin(), {"case", arguments.chain.chain_case});
-  const std::string solver =
-      task.closed_form ? "closed form"
-                       : fmt::format("{} {}", direct_solver_name(), cost.bdf ? "Adams and BDF" : "Adams");
+  values.insert(values.begin(), {{"deck", "exact"}, {"case", arguments.chain.chain_case}});
   const bool of_file = task.ends && task.ends->file;
   if (task.drive || of_file) { // k, D and c are those of each place
     const auto of_place = [](const auto &value) { return value.first == "k" || value.first == "D"; };
@@ -265,9 +255,7 @@ std::vector<std::pair<std::string, std::string>> record(const Arguments &argumen
   }
   values.insert(values.end(), {{"impact_speed", number_text(task.options.impact_speed)},
                                {"cycles", number_text(task.options.cycles)},
-                               {"samples_per_cycle", fmt::format("{}", task.options.samples_per_cycle)},
-                               {"solver", solver},
-                               {"rtol", number_text(task.closed_form ? 0.0 : task.options.rtol)}});
+                               {"samples_per_cycle", fmt::format("{}", task.options.samples_per_cycle)}});
   if (task.roller) {
     const auto rows = task.roller->rows(p.g);
     values.insert(values.end(), rows.begin(), rows.end());
@@ -288,10 +276,8 @@ void run(const Arguments &arguments, const std::string &command) {
     progress.tell("solved to cycle {:.1f} of {:g}", share * task.options.cycles, task.options.cycles);
   };
   TwoEndsOrbit orbit;
-  const DirectResult result = [&]() -> DirectResult {
-    if (!task.ends)
-      return task.closed_form ? solve_closed_form(task.parameters, task.options, tell)
-                              : solve_direct(task.parameters, task.options, tell);
+  const ExactSolution result = [&]() -> ExactSolution {
+    if (!task.ends) return solve_chain(task.parameters, task.options, tell);
     TwoEndsResult solved = solve_two_ends(task.ends->machine, task.options, tell);
     orbit = solved.orbit;
     return std::move(solved);
@@ -305,14 +291,14 @@ void run(const Arguments &arguments, const std::string &command) {
   write_files({{task.out / file_names[0], chain_text(result.history)},
                {task.out / file_names[1], events_text(result.events)},
                {task.out / file_names[2], cycles_text(result.cycles)},
-               {task.out / file_names[3], parameters_text(record(arguments, task, result.cost, command))}});
+               {task.out / file_names[3], parameters_text(record(arguments, task, command))}});
   const std::string of_moment =
       task.me_re
           ? fmt::format(", of the eccentric moment {:g} kg m of the roller, whatever the masses", *task.me_re)
           : "";
   fmt::print("{}: {} samples, {} events, {} cycles (case {}, transition {}; {} steps), Fw {:g} N{}\n",
              task.out.string(), result.history.size(), result.events.size(), result.cycles.size(),
-             arguments.chain.chain_case, arguments.chain.transition, result.cost.steps, task.parameters.Fw,
+             arguments.chain.chain_case, arguments.chain.transition, result.pieces, task.parameters.Fw,
              of_moment);
   if (!task.ends) return;
   const std::string of_tilt = orbit.of_tilt < 0.0 ? "" : fmt::format(", of tilting {:.4g}", orbit.of_tilt);
@@ -335,9 +321,8 @@ void add_exact_command(CLI::App &app, Session &session) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App *exact = app.add_subcommand(
       "exact",
-      "Solve the chain soil - drum - frame without an engine, in closed form; by the integrator CVODE "
-      "with --rtol, and where contact and bond decay so fast that the closed form would take long. "
-      "Writes chain.csv, events.csv, cycles.csv and parameters.csv.");
+      "Solve the chain soil - drum - frame without an engine, in closed form. Writes chain.csv, events.csv, "
+      "cycles.csv and parameters.csv.");
   add_chain_options(*exact, arguments->chain);
   text_option(exact, "--cycles", "NUMBER", arguments->cycles, "cycles of the excitation (default 30)");
   text_option(
@@ -361,8 +346,6 @@ void add_exact_command(CLI::App &app, Session &session) {
               "with --contacts: tilt of drum and frame at the start besides that of equilibrium [rad]");
   text_option(exact, "--samples-per-cycle", "COUNT", arguments->samples_per_cycle,
               "rows of chain.csv per cycle");
-  text_option(exact, "--rtol", "NUMBER", arguments->rtol,
-              "solve by the integrator, with this relative tolerance, 1e-14 to 1e-3");
   text_option(exact, "--impact-speed", "NUMBER", arguments->impact_speed,
               "if positive: start touching and moving down at this speed [m/s] instead of at equilibrium");
   exact->add_option("--out", arguments->out, "folder for the files, made if missing")

@@ -60,6 +60,7 @@ struct GoneOption {
 };
 constexpr std::array gone_options = {
     GoneOption{"advise", "--ends", "none; inputs/study/ends/findings.md says how many contacts are enough"},
+    GoneOption{"exact", "--rtol", "none; the solution has all digits"},
     GoneOption{"meter", "--export", "none; meter.csv in --out has all values, a site is mapped by Veta"},
     GoneOption{"passes", "--field", "none, but folders of runs: FOLDER...; a site is mapped by Veta"},
 };

@@ -100,7 +100,7 @@ EndsFamily judge_contacts(const std::string &contacts, const Task &task) {
     const TwoEnds machine = family.at(values);
     if (const std::string fault = machine.invalid(); !fault.empty())
       throw UsageError(fault.rfind("contacts", 0) == 0 ? "--" + fault : fault);
-    DirectOptions options;
+    ExactOptions options;
     options.cycles = longest_transient * task.grid.cycles;
     if (const std::string fault = too_much_work(machine, options); !fault.empty())
       throw UsageError("--" + fault);

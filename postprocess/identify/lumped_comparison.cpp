@@ -1,6 +1,6 @@
 #include "identify/lumped_comparison.h"
 
-#include "chain/closed_form.h"
+#include "chain/exact_solution.h"
 #include "meter/cycles.h"
 #include "pages/figure_data.h"
 #include "record/chain_record.h"
@@ -134,7 +134,7 @@ CycleValues reach_of(const ChainParameters &chain, const LawEstimate &law, int s
       // An interval may reach below zero: the chain's lower end is then a tenth of the estimate.
       other.*parameter = std::max(0.1 * chain.*parameter, chain.*parameter + side * half_width);
       const std::vector<CycleValues> cycles =
-          values_of(chain_record(other, solve_closed_form(other, lumped_count, samples, lead).history));
+          values_of(chain_record(other, solve_chain(other, lumped_count, samples, lead).history));
       for (std::size_t q = 0; q < largest.size(); ++q)
         largest[q] = std::max(largest[q], std::fabs(mean_from(cycles, 0, q).mean - middle[q]));
     }
@@ -369,7 +369,7 @@ LumpedComparison compare_lumped(const Record &record, const IdentifiedRecord &fo
   result.r2 = found.whole.law.r2;
   const auto samples = static_cast<int>(std::lround(record.period() / record.interval));
   const int cycles = std::max(lumped_count, static_cast<int>(record.cycles()) + 5);
-  const ChainHistory steady = solve_closed_form(result.chain, cycles, samples, lead).history;
+  const ChainHistory steady = solve_chain(result.chain, cycles, samples, lead).history;
   result.lumped = chain_record(result.chain, closest_part(record, steady, static_cast<std::size_t>(samples)));
   result.record_cycles = values_of(record);
   result.lumped_cycles = values_of(chain_record(result.chain, steady));

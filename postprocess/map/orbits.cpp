@@ -13,37 +13,39 @@ namespace {
 // Computes the Jacobian of the motion and counts events and pieces.
 class Linearised : public MotionObserver {
 public:
-  Linearised(Passage &passage, bool with_jacobian) : passage_(passage), with_jacobian_(with_jacobian) {}
+  Linearised(Passage &passage, bool with_jacobian, double m2)
+      : passage_(passage), with_jacobian_(with_jacobian), m2_(m2) {}
 
-  void piece(const MotionPiece &piece, const PhaseDynamics &dynamics) override {
+  void piece(const MotionPiece &piece, const PhaseDynamics &dynamics, std::uint32_t acting) override {
     const double time = piece.length * piece.end;
-    if (piece.phase == ContactPhase::contact) passage_.contact_time += time;
+    if (acting != 0) passage_.contact_time += time;
     if (with_jacobian_)
       for (Eigen::Index i = 0; i < 4; ++i)
         passage_.jacobian.col(i) = dynamics.carry(passage_.jacobian.col(i), time);
   }
-  void change(const PhaseChange &change) override {
+  void change(const ContactChange &change) override {
     passage_.makes += change.make() ? 1 : 0;
     passage_.breaks += change.broken() ? 1 : 0;
-    if (with_jacobian_ && change.saltation != 0.0)
-      passage_.jacobian.row(1) += change.saltation * passage_.jacobian.row(0);
+    if (with_jacobian_ && change.jump != 0.0)
+      passage_.jacobian.row(1) -= change.jump / m2_ * passage_.jacobian.row(0);
   }
 
 private:
   Passage &passage_;
   bool with_jacobian_;
+  double m2_;
 };
 
 } // namespace
 
 Passage pass(const ChainSolver &solver, const ChainState &state, int cycles, bool with_jacobian) {
   Passage passage;
-  Linearised observer(passage, with_jacobian);
+  Linearised observer(passage, with_jacobian, solver.parameters().m2);
   ChainMotion motion = solver.start_at(state);
   for (int i = 0; i < cycles; ++i)
     solver.finish_cycle(motion, &observer);
   passage.end = motion.state;
-  passage.last_phase = motion.phase;
+  passage.last_phase = motion.contacts[0].phase;
   return passage;
 }
 
@@ -105,12 +107,15 @@ namespace {
 
 class Tangent : public MotionObserver {
 public:
-  explicit Tangent(const ChainState &start) : vector(start) {}
-  void piece(const MotionPiece &piece, const PhaseDynamics &dynamics) override {
+  Tangent(const ChainState &start, double m2) : vector(start), m2_(m2) {}
+  void piece(const MotionPiece &piece, const PhaseDynamics &dynamics, std::uint32_t /*acting*/) override {
     vector = dynamics.carry(vector, piece.length * piece.end);
   }
-  void change(const PhaseChange &change) override { vector[1] += change.saltation * vector[0]; }
+  void change(const ContactChange &change) override { vector[1] -= change.jump / m2_ * vector[0]; }
   ChainState vector;
+
+private:
+  double m2_;
 };
 
 } // namespace
@@ -120,7 +125,7 @@ void ChainCycles::advance(ChainMotion &motion, ChainState *tangent) const {
     solver.finish_cycle(motion);
     return;
   }
-  Tangent observer(*tangent);
+  Tangent observer(*tangent, solver.parameters().m2);
   solver.finish_cycle(motion, &observer);
   *tangent = observer.vector;
 }

@@ -1,13 +1,13 @@
 // Periodic motions (orbits) of the chain, their stability, and the parameters at which they lose it. The
 // Poincare map takes the state at the start of a cycle of the excitation to that at the start of the next. It
 // is linearised exactly: over a piece (MotionPiece) by the matrix exponential, at an event by the saltation
-// matrix (PhaseChange::saltation).
+// matrix (ContactChange::jump).
 //
 // Source of the saltation matrix and of Floquet multipliers of motions with events: di Bernardo, Budd,
 // Champneys, Kowalczyk, "Piecewise-smooth Dynamical Systems", Springer 2008.
 #pragma once
 
-#include "chain/closed_form.h"
+#include "chain/one_contact.h"
 #include "map/orbit_search.h"
 
 #include <Eigen/Core>

@@ -51,16 +51,16 @@ public:
     end_cycle();
   }
 
-  void piece(const MotionPiece &piece, const PhaseDynamics & /*dynamics*/) override {
+  void piece(const MotionPiece &piece, const PhaseDynamics & /*dynamics*/, std::uint32_t acting) override {
     const double half = 0.5 * piece.end;
     for (const Node &node : gauss)
       for (const double side : {-1.0, 1.0})
-        add(piece, half * (1.0 + side * node.place), node.weight * half * piece.length);
-    if (piece.phase != ContactPhase::contact) return;
+        add(piece, acting != 0, half * (1.0 + side * node.place), node.weight * half * piece.length);
+    if (acting == 0) return;
     contact_ += piece.end * piece.length;
     extremes(piece);
   }
-  void change(const PhaseChange & /*change*/) override {}
+  void change(const ContactChange & /*change*/) override {}
 
   MeterValues values(int cycles) {
     end_cycle();
@@ -96,7 +96,7 @@ private:
     lowest_ = 0.0;
   }
 
-  void add(const MotionPiece &piece, double s, double weight) {
+  void add(const MotionPiece &piece, bool acts, double s, double weight) {
     const ChainParameters &p = solver_.parameters();
     const ChainState state = piece.state(s);
     const double a = weight * piece.drum_acceleration(s);
@@ -107,7 +107,7 @@ private:
       sum += turned *= half;
     const double from_bond = p.c23 * (state[3] - state[1]) + p.k23 * (state[2] - state[0]);
     frame_ += weight * (-p.g - from_bond / p.m3) * half * half;
-    if (piece.phase == ContactPhase::contact) energy_ -= weight * solver_.law(state) * state[1];
+    if (acts) energy_ -= weight * solver_.system().law(state) * state[1];
   }
 
   // Largest force and lowest position in a piece: where their rates change sign between points so close that
@@ -121,7 +121,7 @@ private:
     const auto sinking = [&](double s) { return -piece.state(s)[1]; };
     const auto take = [&](double s) {
       const ChainState state = piece.state(s);
-      peak_ = std::max(peak_, solver_.force(piece.phase, state));
+      peak_ = std::max(peak_, solver_.system().force(state));
       lowest_ = std::min(lowest_, state[0]);
     };
     take(0.0);

@@ -50,7 +50,7 @@ std::string what_was_run(const ReportResults &results) {
     if (run.kind == RunKind::unknown) continue;
     if (run.kind == RunKind::chain && run.at_case) cases.push_back(run.case_name);
     transitions.insert(transition_name(run.transition()));
-    engines.push_back(run.direct ? "the direct solver" : run.text("engine", ""));
+    engines.push_back(run.direct ? "the exact solution" : run.text("engine", ""));
   }
   std::vector<std::string> parts;
   if (chains > 0) {
@@ -80,7 +80,7 @@ std::string by_scheme(const ReportResults &results) {
     const Run &run = results.runs[i].run;
     const CheckCount own = count_checks(results, i);
     if (own.all == 0) continue;
-    auto &[agree, all] = schemes[run.direct ? "direct solver" : run.text("stepping")];
+    auto &[agree, all] = schemes[run.direct ? "exact solution" : run.text("stepping")];
     agree += own.agree;
     all += own.all;
   }
@@ -180,7 +180,7 @@ std::string error_words(const ReportResults &results) {
       worst = &result;
   }
   if (worst == nullptr) return {};
-  return fmt::format("The drum velocity differs from the reference solution (direct solver) by at most "
+  return fmt::format("The drum velocity differs from the exact solution by at most "
                      "{:.2e} (relative RMS over {}; run {}).",
                      worst->chain->velocity_error_last,
                      last_cycles_words({std::min(error_cycles, worst->run.complete)}), worst->run.name);

@@ -15,7 +15,6 @@ namespace drumlin::post {
 /// Versions of the programs that made the report.
 struct ReportVersions {
   std::string drumlin;
-  std::string direct_solver;
   std::string gnuplot;
   std::string made_at; ///< date and time, UTC
 };

@@ -9,7 +9,6 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include "chain/direct_solver.h"
 #include "pages/gnuplot.h"
 #include "pages/html.h"
 #include "passes/page.h"
@@ -161,7 +160,7 @@ ReportContent make_content(std::vector<Run> runs, std::vector<LeftOut> left_out,
       std::any_of(runs.begin(), runs.end(), [](const Run &run) { return run.kind == RunKind::bed; });
   CountedProgress reading(runs.size() + (any_beds ? 1 : 0), "runs", say);
   ReportContent content;
-  DirectSolutions direct;
+  ExactSolutions exact;
   for (Run &run : runs) {
     reading.begins(run.kind == RunKind::chain
                        ? fmt::format("{}: reference solution and measured values", run.name)
@@ -173,7 +172,7 @@ ReportContent make_content(std::vector<Run> runs, std::vector<LeftOut> left_out,
       else if (run.kind == RunKind::ends)
         content.ends.push_back(analyse_ends(std::move(run)));
       else
-        content.results.runs.push_back(analyse(std::move(run), direct));
+        content.results.runs.push_back(analyse(std::move(run), exact));
     } catch (const std::runtime_error &error) {
       left_out.push_back(unreadable(place, error.what()));
     }
@@ -237,7 +236,7 @@ void draw(const ReportContent &content, const fs::path &gnuplot, const fs::path 
 }
 
 ReportVersions find_versions(const std::string &drumlin, const fs::path &gnuplot, const fs::path &scratch) {
-  return {drumlin, direct_solver_name(), gnuplot_version(gnuplot, scratch),
+  return {drumlin, gnuplot_version(gnuplot, scratch),
           fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)))};
 }
 

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "chain/reference_values.h"
 #include "report/place.h"
 #include "report/soil/element_tests.h"
 #include "support/text.h"
@@ -158,7 +157,7 @@ void count_cycles(Run &run) {
   const double period = run.chain.period();
   const double rows = static_cast<double>(run.history.size() - 1);
   const double step = (run.history.time.back() - run.history.time.front()) / rows;
-  constexpr double most_per_cycle = 1.0e6; // as the direct solver's
+  constexpr double most_per_cycle = 1.0e6; // as of exact solutions
   const double samples = std::min(std::round(period / step), most_per_cycle);
   if (!(samples >= 1.0) || !(run.history.time.back() / period < 2.0 * rows))
     throw std::runtime_error(fmt::format(

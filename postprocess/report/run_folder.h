@@ -35,7 +35,7 @@ struct Run {
   ChainParameters chain;     ///< of a chain, or of the contacts, roller and excitation of a bed
   double impact_speed = 0.0; ///< of a chain that starts by falling onto the soil, m/s; 0: from equilibrium
   ImpactParameters impact;   ///< of an impact
-  bool direct = false;       ///< whether the direct solver made it rather than an engine
+  bool direct = false;       ///< whether it is an exact solution rather than a run of an engine
   bool at_case = false;      ///< whether the parameters are those of the named case
   std::string not_at_case;   ///< if not: which parameter differs
 

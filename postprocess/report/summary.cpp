@@ -86,7 +86,6 @@ std::string summary_json(const ReportContent &content) {
   Json json;
   json["made_at"] = versions.made_at;
   json["drumlin"] = versions.drumlin;
-  json["direct_solver"] = versions.direct_solver;
   json["gnuplot"] = versions.gnuplot;
   json["checks"] = count.all;
   json["agree"] = count.agree;

@@ -1,10 +1,11 @@
-// The chain of in.chain in the engine against the direct solver: the four cases under A and B, the order of
+// The chain of in.chain in the engine against CVODE: the four cases under A and B, the order of
 // the stepping, the equilibrium that it starts from, and Eq. (1) in every recorded row.
+#include "tests/support/chain_by_cvode.h"
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include "chain/analysis.h"
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 
 #include <gtest/gtest.h>
 
@@ -42,12 +43,12 @@ std::string case_name(const ::testing::TestParamInfo<Case> &info) {
   return info.param.name + post::transition_name(info.param.transition);
 }
 
-post::DirectResult reference_of(const ChainParameters &parameters, int samples_per_cycle,
-                                int number_of_cycles = cycles) {
-  post::DirectOptions options;
+post::ExactSolution reference_of(const ChainParameters &parameters, int samples_per_cycle,
+                                 int number_of_cycles = cycles) {
+  post::ExactOptions options;
   options.cycles = number_of_cycles;
   options.samples_per_cycle = samples_per_cycle;
-  return post::solve_direct(parameters, options);
+  return drumlin::test::solve_by_cvode(parameters, options);
 }
 
 /// Relative RMS error of the drum's velocity over the last five cycles.
@@ -64,7 +65,7 @@ TEST_P(Chain, FollowsTheDirectSolver) {
   constexpr int steps = 2000;
   constexpr int samples = 200;
   const ChainRun run = run_chain(GetParam().name, p.transition, steps, samples);
-  const post::DirectResult reference = reference_of(p, samples);
+  const post::ExactSolution reference = reference_of(p, samples);
   const double error = velocity_error(run.history, reference.history);
   RecordProperty("error", number(error));
   EXPECT_LT(error, 5e-3);
@@ -178,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(Table1, Chain, ::testing::ValuesIn(all_cases), case_nam
 class SmoothChain : public ::testing::TestWithParam<Case> {};
 
 TEST_P(SmoothChain, ErrorIsOfFirstOrder) {
-  const post::DirectResult reference = reference_of(GetParam().parameters(), 100);
+  const post::ExactSolution reference = reference_of(GetParam().parameters(), 100);
   std::vector<double> steps, errors;
   for (const int n : {500, 1000, 2000, 4000, 8000}) {
     const ChainRun run = run_chain(GetParam().name, GetParam().transition, n, 100);
@@ -204,7 +205,7 @@ class ImpactingChain : public ::testing::TestWithParam<Case> {};
 
 TEST_P(ImpactingChain, ErrorHasAnEnvelopeOfFirstOrder) {
   constexpr int samples = 20;
-  const post::DirectResult reference = reference_of(GetParam().parameters(), samples);
+  const post::ExactSolution reference = reference_of(GetParam().parameters(), samples);
   const auto envelope = [&](int level) {
     double largest = 0;
     for (const int base : {480, 500, 520, 540, 560, 580}) {
@@ -242,7 +243,7 @@ TEST_P(SecondOrderChain, KeepsItsErrorBounds) {
   const Bound &bound = GetParam();
   const ChainParameters p = bound.chain.parameters();
   constexpr int samples = 200;
-  const post::DirectResult reference = reference_of(p, samples);
+  const post::ExactSolution reference = reference_of(p, samples);
   std::vector<double> steps, errors;
   for (const int n : {200, 400, 800, 1600, 3200, 6400}) {
     const ChainRun run = run_chain(bound.chain.name, p.transition, n, samples, {{"stepping", "second"}});
@@ -266,7 +267,7 @@ TEST_P(SecondOrderChain, KeepsItsErrorBounds) {
 TEST_P(SecondOrderChain, FindsThePeakForce) {
   const ChainParameters p = GetParam().chain.parameters();
   constexpr int steps = 2000;
-  const post::DirectResult reference = reference_of(p, steps);
+  const post::ExactSolution reference = reference_of(p, steps);
   const ChainRun run = run_chain(GetParam().chain.name, p.transition, steps, steps, {{"stepping", "second"}});
   const auto peak = [](const ChainHistory &history, const std::vector<post::ContactEvent> &events) {
     double largest = *std::max_element(history.F_contact.begin(), history.F_contact.end());
@@ -322,7 +323,7 @@ TEST(Rollers, OfFilesFollowTheDirectSolver) {
       p.transition = transition;
       const Variables variables = with({{"stepping", "second"}, {"cycles", "3"}}, of_file(roller));
       const ChainRun run = run_chain("II", transition, 2000, samples, variables);
-      const post::DirectResult reference = reference_of(p, samples, 3);
+      const post::ExactSolution reference = reference_of(p, samples, 3);
       ASSERT_EQ(run.history.size(), reference.history.size());
       EXPECT_LT(post::relative_rms(run.history.v_drum, reference.history.v_drum, 0, reference.history.size()),
                 1e-4);
@@ -369,7 +370,7 @@ TEST(ChainUnderB, ContactIsMadeAgainWhileOverlapping) {
   p.k = 1e7;
   p.D = 0.5;
   const ChainRun run = run_chain("II", Transition::B, 2000, 200, {{"k", "1e7"}, {"D", "0.5"}});
-  const post::DirectResult reference = reference_of(p, 200);
+  const post::ExactSolution reference = reference_of(p, 200);
   const auto again = [&](const std::vector<post::ContactEvent> &events) {
     return std::count_if(events.begin(), events.end(), [&](const post::ContactEvent &event) {
       return event.make && event.overlap > 0 && std::fabs(event.force) < 1e-6 * (p.m2 + p.m3) * p.g;

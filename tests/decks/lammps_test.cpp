@@ -1,13 +1,14 @@
 // LAMMPS against LIGGGHTS: the same fixes and laws in both, with another pair style, other walls and another
 // contact history. The allowed difference is rounding, and its growth in scenes whose motion is sensitive to
 // it.
+#include "tests/support/chain_by_cvode.h"
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/frame_distance.h"
 
 #include "bed/dump_readers.h"
 #include "chain/analysis.h"
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 
 #include <gtest/gtest.h>
 
@@ -71,10 +72,10 @@ TEST_P(InLammpsChain, IsThatOfLiggghtsAndFollowsTheDirectSolver) {
   }
 
   const post::ChainParameters p = post::table1_case(GetParam().name, GetParam().transition);
-  post::DirectOptions options;
+  post::ExactOptions options;
   options.cycles = 30;
   options.samples_per_cycle = 200;
-  const post::ChainHistory reference = post::solve_direct(p, options).history;
+  const post::ChainHistory reference = drumlin::test::solve_by_cvode(p, options).history;
   ASSERT_EQ(a.history.size(), reference.size());
   const double error = post::relative_rms(a.history.v_drum, reference.v_drum, 25 * 200, reference.size());
   EXPECT_LT(error, std::string(GetParam().stepping) == "second" ? 1e-4 : 5e-3);

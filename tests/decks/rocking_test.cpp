@@ -1,4 +1,4 @@
-// Drum and frame that tilt, in.rocking in both engines, against the direct solver: unequal halves that lose
+// Drum and frame that tilt, in.rocking in both engines, against the exact solution: unequal halves that lose
 // contact at both ends, equal ones against in.chain, free rocking against its frequency; energy, restarts and
 // ranks.
 #include "tests/support/checks.h"
@@ -96,7 +96,7 @@ class Rocking : public ::testing::TestWithParam<Transition> {};
 // that it is fitted over six time steps. The drum leaves the soil at both ends.
 TEST_P(Rocking, FollowsTheDirectSolver) {
   const RockingRun rocking;
-  post::DirectOptions options;
+  post::ExactOptions options;
   options.cycles = cycles;
   options.samples_per_cycle = samples;
   const post::TwoEndsResult exact = post::solve_two_ends(rocking.direct(GetParam()), options);

@@ -1,11 +1,12 @@
 // The chain that drives over soil that changes, in both engines, against the exact solution: steps, ramps and
 // a random field of k and D; over uniform soil against the chain that stands.
+#include "tests/support/chain_by_cvode.h"
 #include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
 #include "tests/support/lines.h"
 
 #include "chain/analysis.h"
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "support/csv.h"
 
 #include <gtest/gtest.h>
@@ -74,11 +75,11 @@ protected:
     post::ChainParameters p = post::table1_case("II", transition);
     p.k = drive.way.front().k;
     p.D = drive.way.front().D;
-    post::DirectOptions options;
+    post::ExactOptions options;
     options.way = post::drive(drive.way, drive.speed, drive.passes);
     options.cycles = drive.duration() / p.period();
     options.samples_per_cycle = samples;
-    return post::solve_direct(p, options).history;
+    return drumlin::test::solve_by_cvode(p, options).history;
   }
 
   /// RMS error of a column over its RMS value, where both have rows.

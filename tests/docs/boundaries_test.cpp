@@ -342,7 +342,7 @@ TEST(Boundaries, NoTwoHeadersOfThePostprocessorDefineATypeOfOneName) {
   EXPECT_GT(defined.size(), 100U);
 }
 
-TEST(Boundaries, TheDirectSolverAndThePostprocessorKnowNothingOfThePlugin) {
+TEST(Boundaries, ThePostprocessorAndItsTestsKnowNothingOfThePlugin) {
   for (const char *folder : {"tests/tools", "tests/pages", "tests/nightly", "postprocess", "tests/support"})
     expect_includes(folder, [](const std::string &, const Include &include) { return fits_judge(include); });
   for (const char *folder : {"tests/tools", "tests/pages", "postprocess"})
@@ -427,7 +427,7 @@ TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
 
   EXPECT_TRUE(fits_judge({"cvode/cvode.h", false}));
   EXPECT_TRUE(fits_judge({"tests/support/ode.h", true}));
-  EXPECT_TRUE(fits_judge({"chain/direct_solver.h", true}));
+  EXPECT_TRUE(fits_judge({"chain/exact_solution.h", true}));
   for (const char *name :
        {"physics/laws/contact_law.h", "contact_law.h", "plugin/physics/laws/contact_law.h",
         "../../plugin/physics/laws/contact_law.h", "fixes/anything.h", "support/arguments.h"})

@@ -2,7 +2,7 @@
 #include "pages/html.h"
 #include "report/report.h"
 
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "report/chain/page.h"
 #include "report/run_folder.h"
 #include "runs/chain_files.h"
@@ -428,9 +428,9 @@ TEST_F(Report, PrintsNoNumberThatIsNone) {
        {std::pair{"no-force", &ChainParameters::Fw}, {"no-weight", &ChainParameters::g}}) {
     ChainParameters p = table1_case("II", Transition::B);
     p.*parameter = 0.0;
-    DirectOptions solver;
+    ExactOptions solver;
     solver.cycles = 12;
-    const DirectResult result = solve_direct(p, solver);
+    const ExactSolution result = solve_chain(p, solver);
     const fs::path folder = root / "none" / name;
     fs::create_directories(folder);
     write_files({{folder / "chain.csv", chain_text(result.history)}});

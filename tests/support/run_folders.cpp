@@ -1,7 +1,7 @@
 #include "tests/support/run_folders.h"
 
 #include "chain/analysis.h"
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "runs/chain_files.h"
 #include "support/files.h"
 #include "tests/support/dump_texts.h"
@@ -26,9 +26,9 @@ void write(const fs::path &file, const std::string &text) { std::ofstream(file, 
 void write_chain_run(const fs::path &folder, const std::string &case_name, Transition transition, int cycles,
                      const std::string &command) {
   const ChainParameters p = table1_case(case_name, transition);
-  DirectOptions options;
+  ExactOptions options;
   options.cycles = cycles;
-  const DirectResult result = solve_direct(p, options);
+  const ExactSolution result = post::solve_chain(p, options);
   fs::create_directories(folder);
   write_files({{folder / "chain.csv", chain_text(result.history)}});
   write_files({{folder / "events.csv", events_text(result.events)}});

@@ -439,7 +439,7 @@ void write_accuracy_page(const fs::path &out, bool complete) {
   Page page(out, "Accuracy of the time integration", Drawing::chain);
   page.answer(fmt::format(
       "Runs of the chain and of single impacts in the engine at many step sizes, compared with the reference "
-      "solution (direct solver) of the same chain and with the closed form of the restitution. Second is the "
+      "solution of the same chain and with the closed form of the restitution. Second is the "
       "plugin's second-order scheme, stock the engine's velocity Verlet scheme with the plugin's contact "
       "law; the engine's own law is hooke/stiffness with its force limited to compression. Chains run for {} "
       "cycles; errors are those of the last {}.",
@@ -463,7 +463,7 @@ void write_accuracy_page(const fs::path &out, bool complete) {
     page.section("Advice");
     page.paragraph(fmt::format(
         "The command advise transfers these curves to other chains by the resolution max(sqrt(k/m2), omega) "
-        "dt and by the sensitivity of the chain to its parameters, which the direct solver computes; it "
+        "dt and by the sensitivity of the chain to its parameters, by exact solutions; it "
         "takes the worst of the four cases and multiplies its steps by {:g}.",
         scaling_margin));
     page.table(scaling_table(data));

@@ -2,7 +2,6 @@
 
 #include "bed/dump_readers.h"
 #include "chain/analysis.h"
-#include "chain/reference_values.h"
 #include "engine/deck_run.h"
 #include "runs/chain_files.h"
 
@@ -20,7 +19,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-double velocity_error(const std::vector<double> &v_drum, const DirectResult &reference) {
+double velocity_error(const std::vector<double> &v_drum, const ExactSolution &reference) {
   const std::size_t rows = static_cast<std::size_t>(accuracy_cycles) * accuracy_samples;
   if (v_drum.size() != rows + 1 || reference.history.size() != rows + 1)
     throw std::logic_error("a run with another number of rows than its reference solution");
@@ -33,7 +32,7 @@ struct Peaks {
   double acceleration;
 };
 
-Peaks peaks_of(const DirectResult &reference) {
+Peaks peaks_of(const ExactSolution &reference) {
   Peaks peaks{0.0, 0.0};
   for (std::size_t i = reference.cycles.size() - accuracy_window; i < reference.cycles.size(); ++i) {
     const CycleSummary &cycle = reference.cycles[i];
@@ -47,7 +46,7 @@ Peaks peaks_of(const DirectResult &reference) {
 } // namespace
 
 ChainErrors measure_chain(const ChainParameters &parameters, const std::string &stepping, int steps_per_cycle,
-                          const DirectResult &reference) {
+                          const ExactSolution &reference) {
   const ChainParameters &p = parameters;
   Variables variables = parameter_values(p);
   variables.insert(variables.end(), {{"stepping", stepping},
@@ -87,7 +86,7 @@ ChainErrors measure_chain(const ChainParameters &parameters, const std::string &
 }
 
 ChainErrors measure_engine_law(const std::string &case_name, int steps_per_cycle,
-                               const DirectResult &reference) {
+                               const ExactSolution &reference) {
   const DeckRun run("study/in.reference", {{"case", case_name},
                                            {"cycles", std::to_string(accuracy_cycles)},
                                            {"steps_per_cycle", std::to_string(steps_per_cycle)},

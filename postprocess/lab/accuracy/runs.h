@@ -11,11 +11,11 @@ namespace drumlin::post {
 
 /// Runs in.chain. \param stepping "second" or "stock"
 ChainErrors measure_chain(const ChainParameters &parameters, const std::string &stepping, int steps_per_cycle,
-                          const DirectResult &reference);
+                          const ExactSolution &reference);
 
 /// Runs a case of Table 1 by the engine's own contact law: velocity error and times only.
 ChainErrors measure_engine_law(const std::string &case_name, int steps_per_cycle,
-                               const DirectResult &reference);
+                               const ExactSolution &reference);
 
 /// Errors of the restitution over the phases of the onset, absolute.
 struct ImpactErrors {

@@ -65,7 +65,7 @@ Plan plan_of(bool quick) {
 /// The reference solutions, each computed when it is first needed.
 class References {
 public:
-  const DirectResult &of(const std::string &chain_case, Transition transition) {
+  const ExactSolution &of(const std::string &chain_case, Transition transition) {
     const std::string name = chain_case + transition_name(transition);
     auto found = known_.find(name);
     if (found == known_.end())
@@ -74,7 +74,7 @@ public:
   }
 
 private:
-  std::map<std::string, DirectResult> known_;
+  std::map<std::string, ExactSolution> known_;
 };
 
 /// Uniform numbers that are the same everywhere: the distributions of the standard library are not.
@@ -158,7 +158,7 @@ void measure(std::vector<ChainPoint> plan, ResumedTable &results, CountedProgres
       progress.found();
       continue;
     }
-    const DirectResult &reference = references.of(point.chain_case, point.transition);
+    const ExactSolution &reference = references.of(point.chain_case, point.transition);
     point.errors = point.stepping == "reference"
                        ? measure_engine_law(point.chain_case, point.steps_per_cycle, reference)
                        : measure_chain(table1_case(point.chain_case, point.transition), point.stepping,

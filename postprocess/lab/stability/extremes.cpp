@@ -1,7 +1,7 @@
 #include "lab/stability/extremes.h"
 
 #include "chain/analysis.h"
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "chain/parameters.h"
 #include "engine/places.h"
 #include "lab/accuracy/runs.h"
@@ -64,11 +64,11 @@ struct ChainPlan {
   }
 };
 
-DirectResult direct(const ChainPlan &plan) {
-  DirectOptions options;
+ExactSolution direct(const ChainPlan &plan) {
+  ExactOptions options;
   options.cycles = plan.cycles;
   options.samples_per_cycle = plan.samples;
-  return solve_direct(plan.parameters, options);
+  return solve_chain(plan.parameters, options);
 }
 
 /// Where the drum rests in the soil without excitation, m.
@@ -97,7 +97,7 @@ Extreme chain_row(const std::string &group, const std::string &name, const Chain
   row.name = name;
   row.deck = "chain/in.chain";
   row.variables = plan.variables();
-  row.expected = "velocity of the drum as the direct solver's (relative RMS)";
+  row.expected = "velocity of the drum as the exact solution's (relative RMS)";
   row.allowed = allowed;
   row.error = [plan](const DeckRun &run) {
     return against_direct(plan, run.must_succeed(),
@@ -137,7 +137,7 @@ Extreme edge_row(const std::string &name, ChainPlan plan, int cycles) {
   plan.cycles = cycles;
   Extreme row = chain_row("At the longest stable step: w0 dt = 1.95", name, plan, 2e-2);
   row.expected =
-      fmt::format("way of the drum from rest over {:.0e} steps as the direct solver's (relative RMS)",
+      fmt::format("way of the drum from rest over {:.0e} steps as the exact solution's (relative RMS)",
                   static_cast<double>(cycles) * steps);
   row.error = [plan](const DeckRun &run) {
     return against_direct(plan, run.must_succeed(), [&](const ChainHistory &history) {
@@ -259,8 +259,9 @@ void add_remade_rows(std::vector<Extreme> &rows) {
   rows.push_back(
       chain_row("Re-made at Fc = 0 with overlap", "D = 0.5; 20 Hz; k = 10 MN/m: motion", plan, 1e-3));
   Extreme events = chain_row("Re-made at Fc = 0 with overlap", "the same: events", plan, 0.01);
-  events.expected = "makes and breaks as the direct solver's; some makes with overlap (largest difference in "
-                    "time over a cycle)";
+  events.expected =
+      "makes and breaks as the exact solution's; some makes with overlap (largest difference in "
+      "time over a cycle)";
   events.error = [plan](const DeckRun &run) {
     const std::vector<ContactEvent> found = read_events(run.must_succeed().file("events.csv"));
     const EventMatch match = match_events(found, direct(plan).events);
@@ -270,7 +271,7 @@ void add_remade_rows(std::vector<Extreme> &rows) {
     if (!remade) throw std::runtime_error("no contact was made again with overlap");
     if (match.matched != match.reference_count || match.run_count != match.reference_count)
       throw std::runtime_error(
-          fmt::format("{} events; the direct solver has {}", match.run_count, match.reference_count));
+          fmt::format("{} events; the exact solution has {}", match.run_count, match.reference_count));
     return match.largest_difference / plan.parameters.period();
   };
   rows.push_back(events);

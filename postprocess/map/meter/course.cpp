@@ -142,7 +142,7 @@ CoursePoint course_point(const ChainParameters &chain, const CourseSetting &sett
   constexpr int cycles = 40;
   constexpr int samples_per_cycle = 250;
   const Record record =
-      chain_record(chain, solve_closed_form(chain, cycles, samples_per_cycle, setting.cycles).history, 1);
+      chain_record(chain, solve_chain(chain, cycles, samples_per_cycle, setting.cycles).history, 1);
   RecordSetting as;
   as.window = cycles;
   point.exact = found_in(record, as);

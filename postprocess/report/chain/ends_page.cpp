@@ -225,16 +225,16 @@ struct OneSidedError {
 constexpr int most_shown_contacts = 8;
 
 /// Solved from rest until it has settled.
-DirectOptions until_settled() {
-  DirectOptions options;
+ExactOptions until_settled() {
+  ExactOptions options;
   options.cycles = 200;
   options.samples_per_cycle = 100;
   return options;
 }
 
 OneSidedError one_sided_error(const TwoEnds &machine, double ratio) {
-  const DirectOptions options = until_settled();
-  const DirectResult solved = solve_two_ends(machine, options);
+  const ExactOptions options = until_settled();
+  const ExactSolution solved = solve_two_ends(machine, options);
   const Record record = chain_record(machine.chain, solved.history);
   const MeterOptions meter;
   OneSidedError error;

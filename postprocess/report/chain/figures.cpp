@@ -28,7 +28,7 @@ TimeWindow shown(const Run &run) {
   return last_cycles_window(run.complete, shown_cycles, run.chain.period());
 }
 
-/// Name of a run's curve: "A DEM" or, for a run of the direct solver, "A direct run".
+/// Name of a run's curve: "A DEM" or, for an exact solution that was given as a run, "A direct run".
 std::string run_label(const RunResult &result) {
   return transition_name(result.run.transition()) + (result.run.direct ? " direct run" : " DEM");
 }
@@ -49,7 +49,7 @@ std::string direct_legend(const RunResult &result) {
   return transition_name(result.run.transition()) + " reference";
 }
 
-/// Whether the reference solution is drawn with the run. Not if the run is by the direct solver itself.
+/// Whether the reference solution is drawn with the run. Not if the run is an exact solution itself.
 bool shows_direct(const RunResult &result) { return !result.run.direct && result.reference != nullptr; }
 
 /// Adds the histories of a run and its reference solution in a window; their second column is the time since
@@ -329,7 +329,7 @@ void plan_dem_and_direct(const ReportResults &results, FigurePlan &plan) {
       name, "Fig. 8  Drum acceleration by DEM and by the reference solution, condition B", {}, 2};
   figure.weight = fig_8_weight;
   figure.key_panel = 1; // case II, if all are there
-  figure.caption = "the run (line), and the reference solution by the direct solver (markers). The table "
+  figure.caption = "the run (line), and the exact solution (markers). The table "
                    "below has the differences.";
   plan_panels(
       results, plan, std::move(figure), "Drum acceleration",

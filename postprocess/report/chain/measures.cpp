@@ -1,8 +1,10 @@
 #include "report/chain/measures.h"
 
+#include "report/chain/reference_values.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
@@ -78,7 +80,7 @@ double share_from_samples(const ChainHistory &history, TimeWindow window) {
 }
 
 /// Fills the values that compare a run with its reference solution.
-void compare_with_reference(ChainMeasures &m, const Run &run, const DirectResult &reference) {
+void compare_with_reference(ChainMeasures &m, const Run &run, const ExactSolution &reference) {
   const double period = run.chain.period();
   const std::vector<double> exact =
       reference_velocity(run.history, reference.history, period, m.reference_interpolated);
@@ -91,7 +93,7 @@ void compare_with_reference(ChainMeasures &m, const Run &run, const DirectResult
 }
 
 /// \param reference the reference solution; nullptr if there is none
-ChainMeasures measure_chain(const Run &run, const DirectResult *reference) {
+ChainMeasures measure_chain(const Run &run, const ExactSolution *reference) {
   ChainMeasures m;
   const ChainParameters &p = run.chain;
   const double period = p.period();
@@ -141,7 +143,7 @@ ChainMeasures measure_chain(const Run &run, const DirectResult *reference) {
 }
 
 /// The reference solution in the form of a run, so that it is measured in the same way.
-Run as_run(const Run &run, const DirectResult &reference) {
+Run as_run(const Run &run, const ExactSolution &reference) {
   Run out;
   out.kind = RunKind::chain;
   out.direct = true;
@@ -163,39 +165,43 @@ Run as_run(const Run &run, const DirectResult &reference) {
   return out;
 }
 
-/// The measured value of a quantity in SI units; nothing if the run does not have it.
-std::optional<double> measured(const ChainMeasures &m, bool has_events, ReferenceQuantity quantity) {
-  using Q = ReferenceQuantity;
-  const auto of = [](const std::optional<Extremes> &found, double Extremes::*end) {
-    return found ? std::optional((*found).*end) : std::nullopt;
-  };
-  const auto of_events = [&](double value) { return has_events ? std::optional(value) : std::nullopt; };
-  switch (quantity) {
-  case Q::drum_acceleration_min:
-    return m.extremes.acceleration.min;
-  case Q::drum_acceleration_max:
-    return m.extremes.acceleration.max;
-  case Q::contact_force_min:
-    return m.extremes.force.min;
-  case Q::contact_force_max:
-    return m.extremes.force.max;
-  case Q::contact_share:
-    return m.contact_share;
-  case Q::force_at_break:
-    return of(m.force_at_break, &Extremes::min);
-  case Q::overlap_at_break:
-    return of(m.overlap_at_break, &Extremes::max);
-  case Q::force_at_make:
-    return of(m.force_at_make, &Extremes::max);
-  case Q::breaks_per_cycle:
-    return of_events(m.breaks_per_cycle);
-  case Q::makes_per_cycle:
-    return of_events(m.makes_per_cycle);
-  case Q::compaction_meter_value:
-    return compaction_meter_value(m.amplitudes);
-  }
-  return std::nullopt;
+/// A quantity that has reference values.
+struct JudgedQuantity {
+  const char *name;
+  double scale; ///< the unit of the reference per SI unit
+  /// In SI units; nothing if the run does not have it.
+  std::optional<double> (*of)(const ChainMeasures &measures, bool has_events);
+  enum { plain, extreme, count } kind = plain;
+};
+
+std::optional<double> end_of(const std::optional<Extremes> &found, double Extremes::*end) {
+  return found ? std::optional((*found).*end) : std::nullopt;
 }
+
+using M = ChainMeasures;
+constexpr double kN = 1e-3, mm = 1e3; // per SI unit
+const std::array<JudgedQuantity, 11> judged_quantities = {{
+    {"drum acceleration, min", 1.0,
+     [](const M &m, bool) { return std::optional(m.extremes.acceleration.min); }, JudgedQuantity::extreme},
+    {"drum acceleration, max", 1.0,
+     [](const M &m, bool) { return std::optional(m.extremes.acceleration.max); }, JudgedQuantity::extreme},
+    {"contact force, min", kN, [](const M &m, bool) { return std::optional(m.extremes.force.min); },
+     JudgedQuantity::extreme},
+    {"contact force, max", kN, [](const M &m, bool) { return std::optional(m.extremes.force.max); },
+     JudgedQuantity::extreme},
+    {"share of time in contact", 1.0, [](const M &m, bool) { return std::optional(m.contact_share); }},
+    {"contact force at break", kN, [](const M &m, bool) { return end_of(m.force_at_break, &Extremes::min); }},
+    {"overlap at break", mm, [](const M &m, bool) { return end_of(m.overlap_at_break, &Extremes::max); }},
+    {"contact force at make", kN, [](const M &m, bool) { return end_of(m.force_at_make, &Extremes::max); }},
+    {"breaks per cycle", 1.0,
+     [](const M &m, bool events) { return events ? std::optional(m.breaks_per_cycle) : std::nullopt; },
+     JudgedQuantity::count},
+    {"makes per cycle", 1.0,
+     [](const M &m, bool events) { return events ? std::optional(m.makes_per_cycle) : std::nullopt; },
+     JudgedQuantity::count},
+    {"meter value CMV", 1.0,
+     [](const M &m, bool) { return std::optional(compaction_meter_value(m.amplitudes)); }},
+}};
 
 /// Fills value, differences and agreement. `half_digit` is half a unit of the last digit given.
 void judge(Check &check, double value, double low, double high, double tolerance, double half_digit) {
@@ -216,46 +222,41 @@ void judge(Check &check, double value, double low, double high, double tolerance
 /// Whether a run's steady state is compared with the reference values.
 bool is_judged(const Run &run) { return run.cut.empty() && run.complete >= long_run_cycles; }
 
-Check steady_check(std::size_t index, const RunResult &result, const ReferenceValue &reference) {
+Check steady_check(std::size_t index, const RunResult &result, const ReferenceValue &reference,
+                   const JudgedQuantity &quantity) {
   Check check;
   check.run = index;
-  check.quantity = quantity_name(reference.quantity);
+  check.quantity = reference.quantity;
   check.unit = reference.unit;
   check.source = reference.source;
-  const int decimals = reference.decimals;
-  check.reference = reference.low == reference.high ? fmt::format("{:.{}f}", reference.low, decimals)
-                                                    : fmt::format("{:.{}f} to {:.{}f}", reference.low,
-                                                                  decimals, reference.high, decimals);
-  using Q = ReferenceQuantity;
-  const auto is_one_of = [&reference](std::initializer_list<Q> quantities) {
-    return std::find(quantities.begin(), quantities.end(), reference.quantity) != quantities.end();
-  };
-  const bool count = is_one_of({Q::breaks_per_cycle, Q::makes_per_cycle});
-  if (count) check.reference = "none";
+  const int decimals = reference.decimals();
+  const bool count = quantity.kind == JudgedQuantity::count;
+  check.reference = count ? "none"
+                    : reference.low_text == reference.high_text
+                        ? reference.low_text
+                        : reference.low_text + " to " + reference.high_text;
   check.tolerance =
       reference.tolerance == 0.0 ? "exact" : fmt::format("{:.{}f}", reference.tolerance, decimals);
   const bool judged = is_judged(result.run);
-  const std::optional<double> value = measured(*result.chain, result.run.has_events, reference.quantity);
+  const std::optional<double> value = quantity.of(*result.chain, result.run.has_events);
   if (!value) {
     if (!judged) check.agreement = Agreement::not_judged;
     check.note = "the run has no such event in its last cycles, or recorded none";
     return check;
   }
   if (result.reference_chain)
-    if (const std::optional<double> direct = measured(*result.reference_chain, true, reference.quantity))
-      check.direct = *direct * reference.scale;
-  judge(check, *value * reference.scale, reference.low, reference.high, reference.tolerance,
+    if (const std::optional<double> direct = quantity.of(*result.reference_chain, true))
+      check.direct = *direct * quantity.scale;
+  judge(check, *value * quantity.scale, reference.low, reference.high, reference.tolerance,
         0.5 * std::pow(10.0, -decimals));
   if (!judged) check.agreement = Agreement::not_judged;
   check.measured = count && *value == 0.0
                        ? "none"
                        : fmt::format("{:.{}f}", check.value + 0.0, std::max(decimals + 2, count ? 1 : 0));
-  if (reference.quantity == ReferenceQuantity::contact_share && !result.chain->share_exact)
+  if (reference.quantity == "share of time in contact" && !result.chain->share_exact)
     check.note = "from samples, not from located events";
-  const bool extreme = is_one_of(
-      {Q::drum_acceleration_min, Q::drum_acceleration_max, Q::contact_force_min, Q::contact_force_max});
-  if ((extreme && !result.chain->extremes.every_step) ||
-      (reference.quantity == Q::compaction_meter_value && !result.chain->amplitudes_every_step))
+  if ((quantity.kind == JudgedQuantity::extreme && !result.chain->extremes.every_step) ||
+      (reference.quantity == "meter value CMV" && !result.chain->amplitudes_every_step))
     check.note = "from samples and events, not from every step";
   return check;
 }
@@ -270,12 +271,12 @@ void compare_impact(std::size_t index, const RunResult &result, std::vector<Chec
   double low = exact;
   double tolerance = 1.0e-4;
   check.source = "closed form";
-  for (const ReferenceRestitution &reference : reference_restitutions())
-    if (reference.transition == transition && std::abs(reference.damping_ratio - p.damping_ratio) < 1.0e-9) {
-      low = reference.restitution;
-      tolerance = reference.tolerance;
-      check.source = reference.source;
-    }
+  if (const ReferenceValue *reference =
+          reference_value(fmt::format("D={:g}", p.damping_ratio), transition, "restitution")) {
+    low = reference->low;
+    tolerance = reference->tolerance;
+    check.source = reference->source;
+  }
   check.reference = fmt::format("{:.6f}", low);
   check.tolerance = fmt::format("{:g}", tolerance);
   if (!result.impact) {
@@ -337,11 +338,11 @@ void compare_words(ReportResults &results) {
   const RunResult *two = best_run(results, "II", Transition::B);
   const RunResult *three = best_run(results, "III", Transition::B);
   if (at_case(two) && at_case(three)) {
-    const ReferencePeakRatio reference;
+    constexpr double ratio = 0.40, tolerance = 0.005;
     Check check = paper_check(results, three, "largest drum acceleration, case III over case II (B)", "0.40",
-                              "0.005", reference.source);
-    judge(check, three->chain->extremes.acceleration.max / two->chain->extremes.acceleration.max,
-          reference.ratio, reference.ratio, reference.tolerance, 0.005);
+                              "0.005", "paper, Case III (\"approximately half\"); reference, steady states");
+    judge(check, three->chain->extremes.acceleration.max / two->chain->extremes.acceleration.max, ratio,
+          ratio, tolerance, tolerance);
     check.measured = fmt::format("{:.4f}", check.value);
     if (!is_judged(two->run) || !is_judged(three->run)) check.agreement = Agreement::not_judged;
     results.words.push_back(check);
@@ -359,35 +360,35 @@ void compare_words(ReportResults &results) {
 
 } // namespace
 
-std::shared_ptr<const DirectResult> DirectSolutions::solve(const ChainParameters &parameters, int cycles,
+std::shared_ptr<const ExactSolution> ExactSolutions::solve(const ChainParameters &parameters, int cycles,
                                                            int samples_per_cycle, double impact_speed) {
   std::string key = fmt::format("{} {} {} {}", transition_name(parameters.transition), cycles,
                                 samples_per_cycle, impact_speed);
   for (const ChainNumber &number : chain_numbers)
     key += fmt::format(" {}", parameters.*number.value);
-  std::shared_ptr<const DirectResult> &entry = known_[key];
+  std::shared_ptr<const ExactSolution> &entry = known_[key];
   if (!entry) {
-    DirectOptions options;
+    ExactOptions options;
     options.cycles = cycles;
     options.samples_per_cycle = samples_per_cycle;
     options.impact_speed = impact_speed;
     if (const std::string fault = too_much_work(parameters, options); !fault.empty())
       throw std::runtime_error(fault);
-    entry = std::make_shared<const DirectResult>(solve_direct(parameters, options));
+    entry = std::make_shared<const ExactSolution>(solve_chain(parameters, options));
   }
   return entry;
 }
 
-RunResult analyse(Run run, DirectSolutions &direct) {
+RunResult analyse(Run run, ExactSolutions &exact) {
   RunResult result;
   result.run = std::move(run);
   const Run &r = result.run;
   if (r.kind == RunKind::chain && r.complete >= 1) {
     try {
-      result.reference = direct.solve(r.chain, r.complete, r.samples_per_cycle, r.impact_speed);
+      result.reference = exact.solve(r.chain, r.complete, r.samples_per_cycle, r.impact_speed);
     } catch (const std::exception &failure) {
       result.run.missing.push_back(fmt::format(
-          "no comparison with the reference solution, since the direct solver failed: {}.", failure.what()));
+          "no comparison with the reference solution, which cannot be computed: {}.", failure.what()));
     }
     result.chain = measure_chain(r, result.reference.get());
     if (result.reference)
@@ -408,8 +409,10 @@ void compare(ReportResults &results) {
     if (!result.chain || !result.run.at_case) continue;
     const std::string transition = transition_name(result.run.chain.transition);
     for (const ReferenceValue &reference : reference_values())
-      if (reference.case_name == result.run.case_name && reference.transition == transition)
-        results.checks.push_back(steady_check(i, result, reference));
+      for (const JudgedQuantity &quantity : judged_quantities)
+        if (reference.case_name == result.run.case_name && reference.transition == transition &&
+            reference.quantity == quantity.name)
+          results.checks.push_back(steady_check(i, result, reference, quantity));
   }
   compare_words(results);
 }

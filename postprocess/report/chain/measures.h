@@ -1,5 +1,5 @@
-// Measured values of chains and single impacts, the reference solution of each chain by the direct solver,
-// and the comparison with the reference values of the paper's cases.
+// Measured values of chains and single impacts, the exact solution of each chain as reference, and the
+// comparison with the reference values of the paper's cases.
 #pragma once
 
 #include <limits>
@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "chain/analysis.h"
-#include "chain/direct_solver.h"
-#include "chain/reference_values.h"
+#include "chain/exact_solution.h"
 #include "report/run_folder.h"
 
 namespace drumlin::post {
@@ -43,7 +42,7 @@ struct ChainMeasures {
   std::string energy_missing;
   std::optional<RollerForce> roller;
 
-  // Comparison with the reference solution (`reference`: the direct solver at the same parameters), if there
+  // Comparison with the reference solution (`reference`: the exact solution at the same parameters), if there
   // is one.
   /// Relative RMS error of the drum velocity over the last error_cycles cycles.
   double velocity_error_last = std::numeric_limits<double>::quiet_NaN();
@@ -84,9 +83,9 @@ struct RunResult {
   Run run;
   std::optional<ChainMeasures> chain;
   std::optional<ImpactMeasure> impact;
-  std::optional<ChainMeasures> reference_chain; ///< the same values of the reference solution
-  std::shared_ptr<const DirectResult>
-      reference; ///< reference solution of the same chain; empty for impacts, and if the direct solver failed
+  std::optional<ChainMeasures> reference_chain;   ///< the same values of the reference solution
+  std::shared_ptr<const ExactSolution> reference; ///< reference solution of the same chain; empty for
+                                                  ///< impacts, and of a chain that takes too long
 };
 
 /// Everything that the report says about chains and single impacts.
@@ -97,21 +96,21 @@ struct ReportResults {
   std::vector<Check> words;       ///< statements that the paper makes in words
 };
 
-/// Computes reference solutions with the direct solver, each set of parameters once.
-class DirectSolutions {
+/// Computes exact solutions, each set of parameters once.
+class ExactSolutions {
 public:
   /// \param samples_per_cycle rows per cycle, as in the run
-  /// \param impact_speed m/s; 0: start from equilibrium Throws std::runtime_error if the solver fails, or if
-  /// the parameters ask for more work than it allows.
-  std::shared_ptr<const DirectResult> solve(const ChainParameters &parameters, int cycles,
-                                            int samples_per_cycle, double impact_speed);
+  /// \param impact_speed m/s; 0: start from equilibrium Throws std::runtime_error if it would
+  /// take too long.
+  std::shared_ptr<const ExactSolution> solve(const ChainParameters &parameters, int cycles,
+                                             int samples_per_cycle, double impact_speed);
 
 private:
-  std::map<std::string, std::shared_ptr<const DirectResult>> known_;
+  std::map<std::string, std::shared_ptr<const ExactSolution>> known_;
 };
 
-/// Measures a run; `direct` computes its reference solution.
-RunResult analyse(Run run, DirectSolutions &direct);
+/// Measures a run; `exact` computes its reference solution.
+RunResult analyse(Run run, ExactSolutions &exact);
 
 /// Compares all runs with the reference values: fills checks, restitution and words.
 void compare(ReportResults &results);

@@ -28,9 +28,8 @@ constexpr Section sections[] = {
      "Every measured value that has a reference value, the compaction meter values, and what the paper "
      "states in words."},
     {"direct", "Error against the reference solution",
-     "The reference solution is that of the direct solver: it integrates the equations of motion of the same "
-     "chain between located events, without an engine. Tables call it the direct solution. Fig. 8 is that of "
-     "the paper."},
+     "The reference solution is the exact solution of the same chain, without an engine. Tables call it the "
+     "direct solution. Fig. 8 is that of the paper."},
     {"engines", "LIGGGHTS against LAMMPS", "The same chains in both engines."},
     {"impact", "Single impact",
      "A mass hits a fixed ball once, without gravity (Fig. 3 of the paper). The restitution is the rebound "
@@ -135,8 +134,7 @@ std::string contents_of(const Section &section, const ReportContent &content) {
   if (id == "runs")
     s += left_out_html(content.left_out) +
          commands_and_versions(content.results.runs,
-                               fmt::format("Report by drumlin {}; reference solutions by {}; figures by {}.",
-                                           content.versions.drumlin, content.versions.direct_solver,
+                               fmt::format("Report by drumlin {}; figures by {}.", content.versions.drumlin,
                                            content.versions.gnuplot));
   return s.empty() ? "<p class=\"absent\">The given runs have nothing for this section.</p>\n" : s;
 }

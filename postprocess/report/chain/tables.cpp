@@ -2,6 +2,7 @@
 
 #include "engine/places.h"
 #include "report/chain/engine_comparison.h"
+#include "report/chain/reference_values.h"
 #include "support/text.h"
 
 #include <algorithm>
@@ -44,9 +45,7 @@ std::string steps_text(const Run &run) {
   return run.steps_per_cycle > 0 ? fmt::format("{}", run.steps_per_cycle) : dash;
 }
 
-std::string engine_text(const Run &run) {
-  return run.direct ? run.text("solver", run.text("engine", dash)) : run.text("engine", dash);
-}
+std::string engine_text(const Run &run) { return run.direct ? "exact solution" : run.text("engine", dash); }
 
 std::string transition_text(const Run &run) {
   return run.kind == RunKind::unknown ? dash : transition_name(run.transition());
@@ -118,7 +117,7 @@ std::string stepping_text(const RunResult &r) {
   return r.run.direct ? "exact" : r.run.text("stepping", dash);
 }
 
-/// The text of a parameter that the direct solver has none of.
+/// The text of a parameter that the exact solution has none of.
 std::function<std::string(const RunResult &)> text_of(const char *name) {
   return [name](const RunResult &r) { return r.run.direct ? dash : r.run.text(name, dash); };
 }
@@ -244,7 +243,7 @@ PageTable runs_table(const ReportResults &results) {
   table.notes.emplace_back(
       "stepping is the scheme by which the engine integrates a time step: second is the second-order scheme, "
       "which knows the part of a step during which balls are in contact; stock is the engine's velocity "
-      "Verlet scheme; exact is the direct solver.");
+      "Verlet scheme; exact is the exact solution.");
   for (std::size_t i = 0; i < results.runs.size(); ++i) {
     const Run &run = results.runs[i].run;
     count = count_checks(results, i);
@@ -354,10 +353,11 @@ std::string known_error(const RunResult &r, bool second) {
   const Run &run = r.run;
   const bool comparable = run.at_case && run.chain.transition == Transition::B;
   if (!comparable && !(second && run.case_name == "I")) return dash;
-  const std::optional<double> known =
-      second ? reference_velocity_error(run.case_name, run.steps_per_cycle)
-             : reference_stock_velocity_error(run.case_name, run.steps_per_cycle);
-  return known ? scientific(*known) : dash;
+  const ReferenceValue *known =
+      reference_value(run.case_name, "B",
+                      fmt::format("velocity error at {} steps, {} stepping", run.steps_per_cycle,
+                                  second ? "second" : "stock"));
+  return known != nullptr ? scientific(known->low) : dash;
 }
 
 const RunColumns error_columns = naming(
@@ -530,8 +530,8 @@ std::vector<PageTable> make_tables(const ReportResults &results) {
                   "events; the share of time in contact follows from the times of the events. To all digits: "
                   "the measured value rounds to the reference value. The tolerance is one unit of the last "
                   "digit given or, for accelerations and forces, 2e-4 of the value, since the states of the "
-                  "reference were not closer to steady than that. Direct solution: the reference solution "
-                  "(direct solver) over the same cycles, evaluated in the same way.",
+                  "reference were not closer to steady than that. Direct solution: the exact solution "
+                  "over the same cycles, evaluated in the same way.",
                   measured_words(results)));
   if (count_checks(results).not_judged > 0)
     steady.notes.push_back(fmt::format(

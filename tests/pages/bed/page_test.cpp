@@ -2,7 +2,7 @@
 // strict XML.
 #include "report/bed/page.h"
 
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "report/answer.h"
 #include "report/bed/figures.h"
 #include "report/bed/measures.h"
@@ -387,9 +387,9 @@ TEST_F(BedReport, IsSoundWithBedsOnly) {
 
 TEST_F(BedReport, IsOnOnePageWithChains) {
   const ChainParameters p = table1_case("II", Transition::B);
-  DirectOptions options;
+  ExactOptions options;
   options.cycles = 4;
-  const DirectResult direct = solve_direct(p, options);
+  const ExactSolution direct = solve_chain(p, options);
   fs::create_directories(root / "chain");
   write_files({{root / "chain" / "chain.csv", chain_text(direct.history)}});
   std::vector<std::pair<std::string, std::string>> values = parameter_values(p);

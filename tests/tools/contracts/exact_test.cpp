@@ -1,6 +1,5 @@
 // `drumlin exact` as a user calls it: its files, messages and exit status.
-#include "chain/closed_form.h"
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "runs/chain_files.h"
 #include "support/files.h"
 #include "tests/support/lines.h"
@@ -88,10 +87,10 @@ TEST_F(ExactCommand, WritesWhatTheSolverFound) {
 
   post::ChainParameters parameters = post::table1_case("III", post::Transition::A);
   parameters.D = 0.4;
-  post::DirectOptions options;
+  post::ExactOptions options;
   options.cycles = 6;
   options.samples_per_cycle = 100;
-  const post::DirectResult expected = post::solve_closed_form(parameters, options);
+  const post::ExactSolution expected = post::solve_chain(parameters, options);
   const fs::path out = folder_ / "a" / "b c";
   const post::ChainHistory history = post::read_chain(out / "chain.csv");
   EXPECT_EQ(history.size(), 601U);
@@ -103,7 +102,7 @@ TEST_F(ExactCommand, WritesWhatTheSolverFound) {
 
   const std::map<std::string, std::string> record = post::read_parameters(out / "parameters.csv");
   for (const char *name : {"case", "transition", "k", "D", "c", "omega", "Fw", "m2", "m3", "k23", "c23", "g",
-                           "cycles", "samples_per_cycle", "solver", "rtol", "command"})
+                           "cycles", "samples_per_cycle", "command"})
     EXPECT_EQ(record.count(name), 1U) << name;
   EXPECT_EQ(record.at("case"), "III");
   EXPECT_EQ(post::number_from_text(record.at("D")), 0.4);
@@ -111,24 +110,8 @@ TEST_F(ExactCommand, WritesWhatTheSolverFound) {
   EXPECT_NE(record.at("command").find("drumlin exact --case III"), std::string::npos);
   EXPECT_EQ(std::distance(fs::directory_iterator(out), fs::directory_iterator()), 4);
   EXPECT_NE(outcome.out.find(" steps), Fw 58800 N\n"), std::string::npos) << outcome.out;
-  EXPECT_EQ(record.at("solver"), "closed form");
+  EXPECT_EQ(record.at("deck"), "exact");
   EXPECT_EQ(record.at("ended"), "yes");
-}
-
-// The integrator solves what is asked with a tolerance, and what the closed form cannot solve within seconds.
-TEST_F(ExactCommand, TakesTheIntegratorWhereAskedOrNeeded) {
-  const auto solver = [&](const std::string &options) {
-    const Outcome outcome = run("exact --cycles 2 --out o " + options);
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    return post::read_parameters(folder_ / "o" / "parameters.csv").at("solver");
-  };
-  EXPECT_EQ(solver("--rtol 1e-11"), post::direct_solver_name() + " Adams");
-  post::DirectOptions options;
-  options.cycles = 2;
-  options.rtol = 1e-11;
-  EXPECT_EQ(get(folder_ / "o/chain.csv"),
-            post::chain_text(post::solve_direct(post::ChainParameters(), options).history));
-  EXPECT_EQ(solver("--m2 1 --m3 1 --D 1e6 --c23 1e14"), post::direct_solver_name() + " Adams and BDF");
 }
 
 // Of a roller the eccentric moment stays when masses or frequency are others, and the command says so.
@@ -156,12 +139,13 @@ TEST_F(ExactCommand, RefusesFilesThatAreOne) {
 
 TEST_F(ExactCommand, EveryOverrideArrives) {
   const Outcome outcome = run("exact --k 2e7 --D 0.3 --omega 100 --Fw 5e4 --m2 1500 --m3 700 --k23 2e6 --c23 "
-                              "2e4 --g 1.62 --rtol 1e-9 --impact-speed 0.25 --cycles 1.5 --out o");
+                              "2e4 --g 1.62 --impact-speed 0.25 --cycles 1.5 --out o");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::map<std::string, std::string> record = post::read_parameters(folder_ / "o" / "parameters.csv");
   const std::map<std::string, double> expected = {
-      {"k", 2e7},   {"D", 0.3},   {"omega", 100}, {"Fw", 5e4},    {"m2", 1500},           {"m3", 700},
-      {"k23", 2e6}, {"c23", 2e4}, {"g", 1.62},    {"rtol", 1e-9}, {"impact_speed", 0.25}, {"cycles", 1.5}};
+      {"k", 2e7},     {"D", 0.3},   {"omega", 100}, {"Fw", 5e4}, {"m2", 1500},
+      {"m3", 700},    {"k23", 2e6}, {"c23", 2e4},   {"g", 1.62}, {"impact_speed", 0.25},
+      {"cycles", 1.5}};
   for (const auto &[name, value] : expected)
     EXPECT_EQ(post::number_from_text(record.at(name)), value) << name;
   EXPECT_EQ(post::read_chain(folder_ / "o" / "chain.csv").size(), 301U);

@@ -1,5 +1,5 @@
 // `drumlin identify` as a user meets it: the program itself, its files, its messages, its exit status.
-#include "chain/closed_form.h"
+#include "chain/exact_solution.h"
 #include "runs/chain_files.h"
 #include "runs/parameter_file.h"
 #include "support/csv.h"
@@ -29,9 +29,8 @@ namespace fs = std::filesystem;
 void write_run(const fs::path &folder, int cycles = 12) {
   const post::ChainParameters p = post::table1_case("II", post::Transition::B);
   fs::create_directories(folder);
-  post::write_files(
-      {{folder / "chain.csv", post::chain_text(post::solve_closed_form(p, cycles, 200).history)},
-       {folder / "parameters.csv", post::parameters_text(post::parameter_values(p))}});
+  post::write_files({{folder / "chain.csv", post::chain_text(post::solve_chain(p, cycles, 200).history)},
+                     {folder / "parameters.csv", post::parameters_text(post::parameter_values(p))}});
 }
 
 /// A roller of the project, and its chain on the soil of case II by hand.
@@ -255,7 +254,7 @@ TEST_F(IdentifyCommand, DrawsTheChainOverTheRecord) {
 // What a roller has: accelerations in g with names of their own, no times, a phase.
 TEST_F(IdentifyCommand, ReadsAMeasuredRecord) {
   const post::ChainParameters p = post::table1_case("III", post::Transition::A);
-  const post::ChainHistory history = post::solve_closed_form(p, 20, 100).history;
+  const post::ChainHistory history = post::solve_chain(p, 20, 100).history;
   std::string text = "Acc drum,Acc frame\n";
   constexpr double in_g = 1.0 / 9.80665;
   for (std::size_t i = 0; i < history.size(); ++i)
@@ -302,7 +301,7 @@ TEST_F(IdentifyCommand, ShowsWhatTolerancesOfTheMachineDo) {
   p.Fw = 100e3;
   p.k = 1.2e7;
   p.D = 0.3;
-  const post::ChainHistory history = post::solve_closed_form(p, 70, 50).history;
+  const post::ChainHistory history = post::solve_chain(p, 70, 50).history;
   std::string text = "time,a_drum,a_frame\n";
   for (std::size_t i = 40 * 50; i < history.size(); ++i)
     text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),
@@ -327,7 +326,7 @@ TEST_F(IdentifyCommand, ShowsWhatTolerancesOfTheMachineDo) {
 
 TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
   const post::ChainParameters p = low_CA3500();
-  const post::ChainHistory history = post::solve_closed_form(p, 20, 80).history;
+  const post::ChainHistory history = post::solve_chain(p, 20, 80).history;
   std::string text = "time,a_drum,a_frame\n";
   for (std::size_t i = 0; i < history.size(); ++i)
     text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),
@@ -373,7 +372,7 @@ TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
 TEST_F(IdentifyCommand, RefusesAResultThatContradictsItself) {
   post::ChainParameters p = low_CA3500();
   p.k = 1e7;
-  const post::ChainHistory history = post::solve_closed_form(p, 20, 50).history;
+  const post::ChainHistory history = post::solve_chain(p, 20, 50).history;
   std::string text = "time,a_drum,a_frame\n";
   for (std::size_t i = 0; i < history.size(); ++i)
     text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),
@@ -395,7 +394,7 @@ TEST_F(IdentifyCommand, RefusesAResultThatContradictsItself) {
 TEST_F(IdentifyCommand, NeedsNoSensorOnTheFrame) {
   post::ChainParameters p = low_CA3500();
   p.k = 6e7;
-  const post::ChainHistory history = post::solve_closed_form(p, 60, 60).history;
+  const post::ChainHistory history = post::solve_chain(p, 60, 60).history;
   std::string text = "time,a_drum\n";
   for (std::size_t i = 20 * 60; i < history.size(); ++i)
     text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i])});

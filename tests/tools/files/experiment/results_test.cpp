@@ -1,7 +1,7 @@
 // Quantities of records that are known, and effects against numbers worked out by hand.
 #include "experiment/results.h"
 
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "runs/chain_files.h"
 #include "experiment/page.h"
 #include "support/files.h"
@@ -134,14 +134,14 @@ TEST(Quantities, OfAnyTableAreAColumnInSixWays) {
 
 // The record of CVODE under the name that a bed's has: the origin of each contact then counts as unknown.
 TEST(Quantities, OfTheLawAreThoseOfARecordWithKnownLaw) {
-  post::DirectOptions options;
+  post::ExactOptions options;
   options.cycles = 10.0;
   options.samples_per_cycle = 250;
   for (const char *name : {"II", "III"}) {
     post::ChainParameters p = post::table1_case(name, post::Transition::B);
     p.k *= 1.7;
     p.D = 0.3;
-    const post::ChainHistory history = post::solve_direct(p, options).history;
+    const post::ChainHistory history = post::solve_chain(p, options).history;
     const post::TemporaryFolder temporary(testing::TempDir(), "identified_law");
     const fs::path &folder = temporary.path();
     post::write_files(

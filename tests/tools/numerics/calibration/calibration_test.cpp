@@ -1,7 +1,7 @@
 // Calibration with closed forms in the place of beds: the parameters that were put in must be found again.
 #include "calibration/calibration.h"
 #include "calibration/search.h"
-#include "chain/closed_form.h"
+#include "chain/exact_solution.h"
 #include "engine/deck_run.h"
 #include "identify/identified_record.h"
 #include "support/files.h"
@@ -143,7 +143,7 @@ TEST(Calibration, FindsTheLumpedSoilThatIdentifySeesInAChain) {
     post::ChainParameters chain;
     chain.k = 0.1 * evaluation.point[0] * std::exp(0.03 * scatter(1, seed, 0));
     chain.D = evaluation.point[1] * std::exp(0.03 * scatter(1, seed, 1));
-    const post::ChainHistory history = post::solve_closed_form(chain, 12, 200).history;
+    const post::ChainHistory history = post::solve_chain(chain, 12, 200).history;
     const post::LawEstimate law = post::identify_record(record_of(chain, history), {}).whole.law;
     return std::vector<double>{law.k.mean, law.D.mean};
   };

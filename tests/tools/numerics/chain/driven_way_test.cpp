@@ -1,9 +1,8 @@
-// A chain that drives over soil that changes along the way: the closed form where the soil changes in steps,
-// the direct solver where it changes linearly, both against an integration that shares no code with them, and
-// against the chain that stands.
-#include "chain/closed_form.h"
-#include "chain/direct_solver.h"
+// A chain that drives over soil that changes along the way, in steps and linearly, against an integration
+// that shares no code with it, and against the chain that stands.
+#include "chain/exact_solution.h"
 #include "chain/driven_way.h"
+#include "tests/support/chain_by_cvode.h"
 #include "tests/support/chain_record.h"
 #include "tests/support/ode.h"
 
@@ -23,8 +22,8 @@ using namespace drumlin::post;
 using drumlin::Way;
 using drumlin::test::relative;
 
-DirectOptions driven(const ChainParameters &p, const Way &way, double speed, int passes = 1) {
-  DirectOptions options;
+ExactOptions driven(const ChainParameters &p, const Way &way, double speed, int passes = 1) {
+  ExactOptions options;
   options.way = drive(way, speed, passes);
   options.cycles = options.way.back().end / p.period();
   return options;
@@ -117,7 +116,7 @@ Integrated integrated(const ChainParameters &p, const Way &way, double speed, in
   }
 }
 
-std::size_t makes(const DirectResult &result) {
+std::size_t makes(const ExactSolution &result) {
   return static_cast<std::size_t>(std::count_if(result.events.begin(), result.events.end(),
                                                 [](const auto &event) { return event.make; }));
 }
@@ -151,18 +150,18 @@ TEST(DrivenWay, UniformSoilIsThatOfTheRollerThatStands) {
     for (const Transition transition : {Transition::A, Transition::B}) {
       const ChainParameters p = table1_case(name, transition);
       const Way way = {{1e4, p.k, p.D}, {1e4 + 0.37, p.k, p.D}, {1e4 + 1.0, p.k, p.D}};
-      const DirectOptions moving = driven(p, way, 1.0 / (9.7 * p.period()), 2);
-      DirectOptions standing = moving;
+      const ExactOptions moving = driven(p, way, 1.0 / (9.7 * p.period()), 2);
+      ExactOptions standing = moving;
       standing.way.clear();
-      const auto expect_same = [&](const DirectResult &a, const DirectResult &b) {
+      const auto expect_same = [&](const ExactSolution &a, const ExactSolution &b) {
         EXPECT_LT(relative(a.history.v_drum, b.history.v_drum), 1e-9) << name << transition_name(transition);
         EXPECT_EQ(a.events.size(), b.events.size());
         EXPECT_EQ(a.cycles.size(), b.cycles.size());
         for (std::size_t i = 0; i < std::min(a.cycles.size(), b.cycles.size()); ++i)
           EXPECT_NEAR(a.cycles[i].F_contact_max, b.cycles[i].F_contact_max, 1e-9 * b.cycles[i].F_contact_max);
       };
-      expect_same(solve_closed_form(p, moving), solve_closed_form(p, standing));
-      expect_same(solve_direct(p, moving), solve_closed_form(p, standing));
+      expect_same(solve_chain(p, moving), solve_chain(p, standing));
+      expect_same(drumlin::test::solve_by_cvode(p, moving), solve_chain(p, standing));
     }
 }
 
@@ -172,12 +171,11 @@ TEST(DrivenWay, StepsFollowTheIntegration) {
     const ChainParameters p = roller(transition);
     const Way way = {{0.0, 3e7, 0.4},  {0.31, 3e7, 0.4}, {0.31, 2e8, 0.15}, {0.61, 2e8, 0.15},
                      {0.61, 1e7, 0.2}, {0.83, 1e7, 0.2}, {0.83, 6e7, 0.6},  {1.2, 6e7, 0.6}};
-    const DirectOptions options = driven(p, way, 1.93, 2);
-    ASSERT_TRUE(closed_form_suffices(p, options));
-    const DirectResult closed = solve_closed_form(p, options), direct = solve_direct(p, options);
+    const ExactOptions options = driven(p, way, 1.93, 2);
+    const ExactSolution closed = solve_chain(p, options), direct = drumlin::test::solve_by_cvode(p, options);
     const Integrated found = integrated(p, way, 1.93, 2, options.samples_per_cycle);
     EXPECT_GT(makes(closed), 10U);
-    for (const DirectResult *one : {&closed, &direct}) {
+    for (const ExactSolution *one : {&closed, &direct}) {
       ASSERT_EQ(one->history.size(), found.time.size());
       EXPECT_LT(relative(one->history.v_drum, found.v_drum), 1e-8) << transition_name(transition);
       EXPECT_LT(relative(one->history.F_contact, found.F_contact), 1e-7) << transition_name(transition);
@@ -199,13 +197,15 @@ TEST(DrivenWay, RampsAndRandomSoilFollowTheIntegration) {
         way.push_back({s, 1e7 * std::pow(10.0, uniform(random)), 0.5 * uniform(random)});
       }
       way.push_back({1.1, 4e7, 0.2});
-      const DirectOptions options = driven(p, way, 1.7, 2);
-      ASSERT_FALSE(closed_form_suffices(p, options));
-      const DirectResult direct = solve_direct(p, options);
+      const ExactOptions options = driven(p, way, 1.7, 2);
       const Integrated found = integrated(p, way, 1.7, 2, options.samples_per_cycle);
-      ASSERT_EQ(direct.history.size(), found.time.size());
-      EXPECT_LT(relative(direct.history.v_drum, found.v_drum), 1e-8) << trial;
-      EXPECT_EQ(makes(direct), found.makes);
+      for (const ExactSolution &one : {solve_chain(p, options), drumlin::test::solve_by_cvode(p, options)}) {
+        ASSERT_EQ(one.history.size(), found.time.size());
+        EXPECT_LT(relative(one.history.v_drum, found.v_drum), 1e-8) << trial;
+        EXPECT_EQ(one.history.s.size(), one.history.size());
+        EXPECT_FALSE(one.history.has(ColumnGroup::ends));
+        EXPECT_EQ(makes(one), found.makes);
+      }
     }
 }
 
@@ -220,7 +220,7 @@ TEST(DrivenWay, AStepCanEndAContactOrBeginOne) {
     const auto law = [&p](double D, double x, double v) {
       return -p.k * x - 2.0 * D * std::sqrt(p.m2 * p.k) * v;
     };
-    const ChainHistory standing = solve_closed_form(p, 10, 1000).history;
+    const ChainHistory standing = solve_chain(p, 10, 1000).history;
     // The first row, after five cycles, at which the other damping turns compression into tension (or back).
     std::size_t row = 5000;
     while (row < standing.size() &&
@@ -230,9 +230,9 @@ TEST(DrivenWay, AStepCanEndAContactOrBeginOne) {
       ++row;
     ASSERT_LT(row, standing.size());
     const double place = standing.time[row]; // at 1 m/s
-    const DirectOptions options = driven(
+    const ExactOptions options = driven(
         p, {{0.0, p.k, p.D}, {place, p.k, p.D}, {place, p.k, behind}, {place + 0.1, p.k, behind}}, 1.0);
-    for (const DirectResult &result : {solve_closed_form(p, options), solve_direct(p, options)}) {
+    for (const ExactSolution &result : {solve_chain(p, options), drumlin::test::solve_by_cvode(p, options)}) {
       const auto event =
           std::find_if(result.events.begin(), result.events.end(),
                        [&](const ContactEvent &one) { return std::fabs(one.time - place) < 1e-9; });
@@ -246,7 +246,7 @@ TEST(DrivenWay, AStepCanEndAContactOrBeginOne) {
 // A ramp of many small steps: the closed form then has the ramp but for an error of second order in them.
 TEST(DrivenWay, AStaircaseConvergesToTheRamp) {
   const ChainParameters p = roller(Transition::B);
-  const DirectResult ramp = solve_direct(p, driven(p, {{0.0, 4e7, 0.3}, {1.0, 1e8, 0.3}}, 2.0));
+  const ExactSolution ramp = solve_chain(p, driven(p, {{0.0, 4e7, 0.3}, {1.0, 1e8, 0.3}}, 2.0));
   std::vector<double> errors;
   for (const int steps : {20, 40, 80}) {
     Way way;
@@ -255,7 +255,7 @@ TEST(DrivenWay, AStaircaseConvergesToTheRamp) {
       way.push_back({static_cast<double>(i) / steps, k, 0.3});
       way.push_back({static_cast<double>(i + 1) / steps, k, 0.3});
     }
-    const DirectResult stairs = solve_closed_form(p, driven(p, way, 2.0));
+    const ExactSolution stairs = solve_chain(p, driven(p, way, 2.0));
     errors.push_back(relative(stairs.history.v_drum, ramp.history.v_drum));
   }
   EXPECT_LT(errors[1], 0.7 * errors[0]);
@@ -270,12 +270,12 @@ TEST(DrivenWay, TheSteadyStateIsReachedBehindAStep) {
     const ChainParameters p = roller(transition);
     const Way way = {{0.0, 3e7, 0.4}, {3.0, 3e7, 0.4}, {3.0, 6e7, 0.3}, {6.0, 6e7, 0.3}};
     const double speed = 3.0 / (60.0 * p.period());
-    const ChainHistory h = solve_closed_form(p, driven(p, way, speed)).history;
+    const ChainHistory h = solve_chain(p, driven(p, way, speed)).history;
     const auto expect_steady = [&](double k, double D, std::size_t cycle) {
       ChainParameters there = p;
       there.k = k;
       there.D = D;
-      const ChainHistory steady = solve_closed_form(there, 1, 200, 400).history;
+      const ChainHistory steady = solve_chain(there, 1, 200, 400).history;
       const std::size_t first = 200 * cycle;
       const std::vector<double> met(h.F_contact.begin() + static_cast<long>(first),
                                     h.F_contact.begin() + static_cast<long>(first) + 200);
@@ -293,7 +293,7 @@ TEST(DrivenWay, BackIsForthOverASymmetricWay) {
   const Way way = {{0.0, 3e7, 0.4}, {2.0, 3e7, 0.4}, {2.0, 9e7, 0.3},
                    {4.0, 9e7, 0.3}, {4.0, 3e7, 0.4}, {6.0, 3e7, 0.4}};
   const double speed = 6.0 / (150.0 * p.period());
-  const ChainHistory h = solve_closed_form(p, driven(p, way, speed, 3)).history;
+  const ChainHistory h = solve_chain(p, driven(p, way, speed, 3)).history;
   const auto pass = [&](std::size_t n) {
     return std::vector<double>(h.v_drum.begin() + static_cast<long>(30000 * n),
                                h.v_drum.begin() + static_cast<long>(30000 * (n + 1)));

@@ -1,6 +1,6 @@
 // The steady states of the paper's four cases: on what two solvers without common code agree, and what
 // REFERENCE.md has recorded of them.
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "tests/support/piecewise_oracle.h"
 
 #include <gtest/gtest.h>
@@ -77,15 +77,15 @@ void expect_near(const Row &found, const Row &expected, const Row &tolerance) {
 
 constexpr int long_run = 160;
 
-post::DirectResult solve(const SteadyCase &steady, int cycles) {
-  post::DirectOptions options;
+post::ExactSolution solve(const SteadyCase &steady, int cycles) {
+  post::ExactOptions options;
   options.cycles = cycles;
-  return post::solve_direct(post::table1_case(steady.name, steady.transition), options);
+  return post::solve_chain(post::table1_case(steady.name, steady.transition), options);
 }
 
 TEST_P(SteadyState, SolversAgreeAndRecordedDigitsHold) {
   const SteadyCase &steady = GetParam();
-  const post::DirectResult solved = solve(steady, long_run);
+  const post::ExactSolution solved = solve(steady, long_run);
   const OracleResult exact = exact_pieces(post::table1_case(steady.name, steady.transition), long_run, 200);
   const Row row = last_row(solved.cycles, solved.events);
   expect_near(row, steady.steady, {0.5e-4, 0.5e-4, 0.5e-4, 0.5e-3, 0.5e-5, 0.5e-4, 0.5e-5, 0.5e-3});
@@ -106,7 +106,7 @@ TEST_P(SteadyState, SolversAgreeAndRecordedDigitsHold) {
 // samples.
 TEST_P(SteadyState, ReferenceTableHoldsWithinTheScatterOfItsCycles) {
   const SteadyCase &steady = GetParam();
-  const post::DirectResult solved = solve(steady, 30);
+  const post::ExactSolution solved = solve(steady, 30);
   const auto covers = [](std::vector<double> values, double recorded, double half_digit, const char *what) {
     ASSERT_FALSE(values.empty()) << what;
     const auto [low, high] = std::minmax_element(values.begin(), values.end());

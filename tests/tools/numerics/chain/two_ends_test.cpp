@@ -1,6 +1,6 @@
 // The drum with two ends: against the chain where it cannot tilt, against closed forms and complex algebra in
 // unbroken contact, and against CVODE where its ends lose contact.
-#include "chain/closed_form.h"
+#include "chain/exact_solution.h"
 #include "chain/two_ends.h"
 #include "files/roller.h"
 #include "tests/support/chain_record.h"
@@ -27,8 +27,8 @@ using drumlin::test::largest, drumlin::test::relative;
 
 constexpr double pi = 3.14159265358979323846;
 
-DirectOptions cycles(double count, int samples = 200) {
-  DirectOptions options;
+ExactOptions cycles(double count, int samples = 200) {
+  ExactOptions options;
   options.cycles = count;
   options.samples_per_cycle = samples;
   return options;
@@ -55,9 +55,9 @@ TEST_P(EveryHalf, EqualHalvesOnEqualBondsAreTheSingleDrum) {
   const ChainParameters chain = table1_case(name, transition);
   for (const double speed : {0.0, 0.3}) {
     SCOPED_TRACE(speed);
-    DirectOptions options = cycles(30.4);
+    ExactOptions options = cycles(30.4);
     options.impact_speed = speed;
-    const DirectResult single = solve_closed_form(chain, options);
+    const ExactSolution single = solve_chain(chain, options);
     const TwoEndsResult halves = solve_two_ends(equal_halves(chain, contacts), options);
     for (const HistoryColumn &column : history_columns) {
       if (column.group != ColumnGroup::motion && column.group != ColumnGroup::frame) continue;
@@ -337,7 +337,7 @@ TEST(TwoEnds, TwoHundredCyclesTakeFewPieces) {
       soil.D = 0.2;
       TwoEnds machine = axas(soil);
       machine.contacts = equal_contacts(contacts, 2.13, k, machine.chain.damping());
-      EXPECT_LE(solve_two_ends(machine, cycles(200, 10)).cost.steps, most) << contacts << ", " << k;
+      EXPECT_LE(solve_two_ends(machine, cycles(200, 10)).pieces, most) << contacts << ", " << k;
     }
 }
 

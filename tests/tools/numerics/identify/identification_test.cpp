@@ -1,10 +1,10 @@
 // Stiffness and damping from records whose true values are known: of the closed-form solver and of CVODE,
 // exact and with noise. The contact's law is in these solvers, not in the identification's own functions.
-#include "chain/closed_form.h"
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "identify/identified_record.h"
 #include "identify/page.h"
 #include "support/statistics.h"
+#include "tests/support/chain_by_cvode.h"
 #include "tests/support/chain_record.h"
 #include "tests/support/checks.h"
 
@@ -27,7 +27,7 @@ constexpr int cycles = 30;
 constexpr int samples_per_cycle = 200;
 
 Record exact_record(const ChainParameters &parameters) {
-  return record_of(parameters, solve_closed_form(parameters, cycles, samples_per_cycle).history);
+  return record_of(parameters, solve_chain(parameters, cycles, samples_per_cycle).history);
 }
 
 std::vector<ChainParameters> eight_cases() {
@@ -122,9 +122,9 @@ TEST(Identification, FindsTheLawOfPeriodTwoAndAperiodicMotion) {
     ChainParameters p = table1_case("II", Transition::B);
     p.D = D;
     SCOPED_TRACE(name_of(p));
-    DirectOptions options;
+    ExactOptions options;
     options.cycles = 40;
-    const Record record = record_of(p, solve_direct(p, options).history);
+    const Record record = record_of(p, drumlin::test::solve_by_cvode(p, options).history);
     for (const bool accelerations_only : {false, true}) {
       RecordSetting setting;
       setting.accelerations_only = accelerations_only;
@@ -211,7 +211,7 @@ TEST(Identification, ThePhaseIsAsUncertainWithoutNoise) {
   setting.accelerations_only = true;
   setting.phase_within = pi / 180.0;
   constexpr int settled = 40; // cycles before the record
-  const Record exact = record_of(p, solve_closed_form(p, cycles, samples_per_cycle, settled).history);
+  const Record exact = record_of(p, solve_chain(p, cycles, samples_per_cycle, settled).history);
   for (const double noise : {0.0, 1e-6, 1e-3}) {
     SCOPED_TRACE(noise);
     const IdentifiedRecord found = identify_record(with_noise(exact, noise, 9), setting);

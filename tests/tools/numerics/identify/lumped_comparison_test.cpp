@@ -1,8 +1,9 @@
 // A record beside its lumped chain: nothing differs if the record is a chain's, solved by CVODE; a soil that
 // stiffens shows.
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "identify/lumped_comparison.h"
 #include "record/chain_record.h"
+#include "tests/support/chain_by_cvode.h"
 #include "tests/support/checks.h"
 
 #include <gtest/gtest.h>
@@ -79,10 +80,10 @@ ChainHistory on_soil(const ChainParameters &p, const std::function<double(double
 TEST(LumpedComparison, OfAChainsRecordDiffersInNothing) {
   for (const char *name : {"I", "III"}) { // contact is kept, and lost
     const ChainParameters p = post::table1_case(name, post::Transition::B);
-    post::DirectOptions options;
+    post::ExactOptions options;
     options.cycles = cycles;
     options.samples_per_cycle = samples;
-    post::Record record = bed_record(p, post::solve_direct(p, options).history);
+    post::Record record = bed_record(p, drumlin::test::solve_by_cvode(p, options).history);
     // Where contact is lost the drum sinks a little in each cycle, and the soil with it.
     const double sinking = std::string(name) == "III" ? 5e-5 : 0.0;
     for (std::size_t i = 0; i < record.size(); ++i) {
@@ -166,9 +167,9 @@ TEST(LumpedComparison, OfSeveralRecordsHasTheScatterOverThem) {
 
 TEST(LumpedComparison, RefusesARecordThatItCannotCompare) {
   const ChainParameters p = post::table1_case("I", post::Transition::B);
-  post::DirectOptions options;
+  post::ExactOptions options;
   options.cycles = 10;
-  const post::Record record = bed_record(p, post::solve_direct(p, options).history);
+  const post::Record record = bed_record(p, drumlin::test::solve_by_cvode(p, options).history);
   const post::IdentifiedRecord found = post::identify_record(record, {});
   EXPECT_EQ(post::compare_lumped(record, found).first,
             4u); // an even number of cycles counts, half of them or more

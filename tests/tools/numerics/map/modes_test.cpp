@@ -1,8 +1,9 @@
 // The regimes of judge_regime(), which come from orbits, their Floquet multipliers and Lyapunov exponents,
 // against motions that are only followed in time and counted, at 500 random points: by the closed-form
 // solver, and by CVODE, which shares no code with it (16 of the points here, all of them in .ci/nightly).
-#include "chain/direct_solver.h"
+#include "chain/one_contact.h"
 #include "map/regime.h"
+#include "tests/support/chain_by_cvode.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -107,8 +108,9 @@ Regime regime_of(int period, int breaks) {
 
 class ContactCount : public MotionObserver {
 public:
-  void piece(const MotionPiece & /*piece*/, const PhaseDynamics & /*dynamics*/) override {}
-  void change(const PhaseChange &change) override { breaks += change.broken() ? 1 : 0; }
+  void piece(const MotionPiece & /*piece*/, const PhaseDynamics & /*dynamics*/,
+             std::uint32_t /*acting*/) override {}
+  void change(const ContactChange &change) override { breaks += change.broken() ? 1 : 0; }
   int breaks = 0;
 };
 
@@ -130,12 +132,11 @@ Regime followed(const ChainParameters &p, int cycles) {
 
 // The same by CVODE, after a start from rest or a fall onto the soil.
 Regime solved_by_cvode(const ChainParameters &p, int cycles, double impact_speed) {
-  DirectOptions options;
+  ExactOptions options;
   options.cycles = cycles;
   options.samples_per_cycle = 1;
-  options.rtol = 1e-10;
   options.impact_speed = impact_speed;
-  const DirectResult result = solve_direct(p, options);
+  const ExactSolution result = drumlin::test::solve_by_cvode(p, options, 1e-10);
   const ChainHistory &h = result.history;
   std::vector<Eigen::Vector4d> states;
   int breaks = 0;
@@ -146,10 +147,10 @@ Regime solved_by_cvode(const ChainParameters &p, int cycles, double impact_speed
   return regime_of(period_of(states, p), breaks);
 }
 
-// The direct solver limits the number of cycles of a solution. If more are asked for, further solutions start
-// with other velocities of the drum, until one of them becomes periodic.
+// The number of cycles of a solution is limited. If more are asked for, further solutions start with other
+// velocities of the drum, until one of them becomes periodic.
 Regime followed_by_cvode(const ChainParameters &p, int cycles) {
-  const auto most = static_cast<int>(std::min(most_cycles(p), DirectOptions::cycles_range.most));
+  const auto most = static_cast<int>(ExactOptions::cycles_range.most);
   Regime regime = solved_by_cvode(p, std::min(cycles, most), 0.0);
   for (int start = 1; regime == Regime::aperiodic && start * most < cycles; ++start)
     regime = solved_by_cvode(p, most, 0.05 * start);

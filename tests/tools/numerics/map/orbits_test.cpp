@@ -1,7 +1,8 @@
 // Monodromy against finite differences, multipliers of unbroken contact against the roots of its matrix,
-// onsets against closed forms and against the direct solver.
-#include "chain/direct_solver.h"
+// onsets against closed forms and against CVODE.
+#include "chain/one_contact.h"
 #include "map/orbits.h"
+#include "tests/support/chain_by_cvode.h"
 #include "tests/support/eigenvalues.h"
 
 #include <gtest/gtest.h>
@@ -154,13 +155,13 @@ TEST(Orbits, PeriodDoublingIsWhereAMultiplierIsMinusOne) {
   };
   EXPECT_GT(least(doubling->value * (1.0 - 1e-8)), -1.0);
   EXPECT_LT(least(doubling->value * (1.0 + 1e-8)), -1.0);
-  // What the direct solver does on both sides.
+  // What CVODE does on both sides.
   for (const double side : {-0.02, 0.02}) {
-    DirectOptions options;
+    ExactOptions options;
     options.cycles = 300;
     options.samples_per_cycle = 1;
-    options.rtol = 1e-12;
-    const ChainHistory h = solve_direct(family(doubling->value * (1.0 + side)), options).history;
+    const ChainHistory h =
+        drumlin::test::solve_by_cvode(family(doubling->value * (1.0 + side)), options).history;
     const std::size_t last = h.size() - 1;
     const double alternates = std::fabs(h.v_drum[last] - h.v_drum[last - 1]);
     const double repeats = std::fabs(h.v_drum[last] - h.v_drum[last - 2]);

@@ -1,7 +1,8 @@
 // The boundaries of regimes that are found from orbits, against CVODE: the loss of contact against the direct
 // solver, the period doubling against a Poincare map that is integrated here. Both to a relative 1e-6.
-#include "chain/direct_solver.h"
+#include "chain/one_contact.h"
 #include "map/orbits.h"
+#include "tests/support/chain_by_cvode.h"
 #include "tests/support/ode.h"
 
 #include <gtest/gtest.h>
@@ -92,10 +93,11 @@ TEST(Boundaries, ContactIsLostWhereTheDirectSolverLosesIt) {
     const auto onset = locate_contact_loss(family, 5e6, 20e6);
     ASSERT_TRUE(onset);
     for (const double side : {-1e-6, 1e-6}) {
-      DirectOptions options;
+      ExactOptions options;
       options.cycles = 200;
       options.samples_per_cycle = 1;
-      const CycleSummary last = solve_direct(family(onset->value * (1.0 + side)), options).cycles.back();
+      const CycleSummary last =
+          drumlin::test::solve_by_cvode(family(onset->value * (1.0 + side)), options).cycles.back();
       EXPECT_EQ(last.breaks > 0, side > 0.0) << side;
     }
   }

@@ -1,9 +1,10 @@
-// Regimes and meter values against known values and the direct solver; the map as a user runs it.
-#include "chain/direct_solver.h"
+// Regimes and meter values against known values and CVODE; the map as a user runs it.
+#include "chain/one_contact.h"
 #include "map/regime_map.h"
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "tests/support/chain_by_cvode.h"
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/lines.h"
@@ -55,9 +56,9 @@ TEST(Regime, CasesAreInTheRegimesOfTheirSteadyStates) {
   EXPECT_NEAR(two.meter.peak_force, 247.27e3, 10.0);
 }
 
-// Period and loss of contact as the direct solver's history has them after many cycles; points near a change
+// Period and loss of contact as CVODE's history has them after many cycles; points near a change
 // are left out, since a history of finite length does not determine the regime there.
-TEST(Regime, AgreesWithTheDirectSolverAtRandomPoints) {
+TEST(Regime, AgreesWithTheCvodeAtRandomPoints) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   int judged = 0;
@@ -69,11 +70,10 @@ TEST(Regime, AgreesWithTheDirectSolverAtRandomPoints) {
     const RegimePoint point = judge_regime(p, 300);
     if (point.regime == Regime::undecided || point.period > 4 || point.multiplier > 0.95) continue;
     ++judged;
-    DirectOptions options;
+    ExactOptions options;
     options.cycles = 400;
     options.samples_per_cycle = 1;
-    options.rtol = 1e-11;
-    const DirectResult direct = solve_direct(p, options);
+    const ExactSolution direct = drumlin::test::solve_by_cvode(p, options, 1e-11);
     const ChainHistory &h = direct.history;
     int period = 0;
     for (int candidate = 1; candidate <= 16 && period == 0; ++candidate) {
@@ -99,10 +99,10 @@ TEST(Regime, MeterValuesOfPeriodTwoAgreeWithAFineRecord) {
   p.k = 30e6;
   const RegimePoint point = judge_regime(p, 400);
   ASSERT_EQ(point.period, 2);
-  DirectOptions options;
+  ExactOptions options;
   options.cycles = 300;
   options.samples_per_cycle = 4000;
-  const ChainHistory h = solve_direct(p, options).history;
+  const ChainHistory h = drumlin::test::solve_by_cvode(p, options, 1e-11).history;
   const std::array<double, 3> multiple = {0.5, 1.0, 2.0};
   std::array<std::complex<double>, 3> sum{};
   for (std::size_t i = h.size() - 1 - 8000; i < h.size() - 1; ++i)
@@ -126,7 +126,7 @@ TEST(Regime, ASlowDepartureFromAnUnstableOrbitIsNotAperiodic) {
 }
 
 // A multiplier of -0.997: the motion alternates about its orbit of period 1, so that states two cycles apart
-// are much nearer to each other than successive ones. The direct solver has period 1 after 5000 cycles.
+// are much nearer to each other than successive ones. CVODE has period 1 after 5000 cycles.
 TEST(Regime, ASlowlyShrinkingAlternationHasPeriodOne) {
   ChainParameters p = table1_case("II", Transition::B);
   p.k = 166221021.0;

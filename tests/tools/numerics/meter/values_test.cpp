@@ -1,11 +1,12 @@
-// Meter values: each formula against its closed form and against an independent computation, records of the
-// direct solver against reference values, and the files that other programs read.
+// Meter values: each formula against its closed form and against an independent computation, records
+// by CVODE against reference values, and the files that other programs read.
 #include "map/regime.h"
 #include "meter/page.h"
 #include "meter/values.h"
 
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "chain/parameters.h"
+#include "tests/support/chain_by_cvode.h"
 #include "tests/support/chain_record.h"
 #include "tests/support/piecewise_oracle.h"
 
@@ -28,12 +29,12 @@ using namespace drumlin::post;
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The record of a run of the direct solver.
+/// The record of a solution by CVODE.
 Record record_of(const ChainParameters &parameters, int cycles, int samples) {
-  DirectOptions options;
+  ExactOptions options;
   options.cycles = cycles;
   options.samples_per_cycle = samples;
-  const ChainHistory history = solve_direct(parameters, options).history;
+  const ChainHistory history = drumlin::test::solve_by_cvode(parameters, options).history;
   Record record = test::record_of(parameters, history);
   record.interval = parameters.period() / samples;
   record.F_contact = history.F_contact;

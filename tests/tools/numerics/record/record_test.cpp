@@ -1,11 +1,12 @@
 // Records of runs and of measurements: what is read, in SI, and what is refused in one line.
 #include "record/record.h"
 
-#include "chain/direct_solver.h"
+#include "chain/exact_solution.h"
 #include "chain/parameters.h"
 #include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/files.h"
+#include "tests/support/chain_by_cvode.h"
 #include "tests/support/changing_roller.h"
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
@@ -32,10 +33,10 @@ constexpr double omega = 125.66370614359172;
 class RecordFiles : public ::testing::Test {
 protected:
   void SetUp() override {
-    DirectOptions options;
+    ExactOptions options;
     options.cycles = 6;
     options.samples_per_cycle = 100;
-    history_ = solve_direct(table1_case("II", Transition::B), options).history;
+    history_ = drumlin::test::solve_by_cvode(table1_case("II", Transition::B), options).history;
   }
 
   fs::path put(const std::string &name, const std::string &text) const {

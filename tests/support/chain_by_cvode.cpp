@@ -1,4 +1,6 @@
-#include "chain/direct_solver.h"
+#include "tests/support/chain_by_cvode.h"
+
+#include "runs/chain_files.h"
 
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
@@ -19,7 +21,10 @@
 #include <type_traits>
 #include <utility>
 
-namespace drumlin::post {
+namespace drumlin::test {
+
+using post::ChainHistory, post::ChainParameters, post::ContactEvent, post::CycleSummary, post::ExactOptions,
+    post::ExactSolution, post::Transition, post::WaySection;
 
 namespace {
 
@@ -158,18 +163,6 @@ public:
   // ratio of the rates near 10^2 to 10^3.
   bool stiff(Phase phase, double t) const { return stiff(rates(phase == Phase::contact ? soil(t) : Soil())); }
 
-  // Radians per second that the integrator's steps must resolve, over all phases.
-  double fastest() const {
-    double fastest = 0.0;
-    const auto include = [&](const Soil &soil) {
-      const Rates found = rates(soil);
-      fastest = std::max(fastest, stiff(found) ? found.motion : std::max(found.motion, found.decay));
-    };
-    include(Soil());
-    for (const Soil &soil : met_)
-      include(soil);
-    return fastest;
-  }
   double largest_stiffness() const {
     return std::max_element(met_.begin(), met_.end(),
                             [](const Soil &one, const Soil &other) { return one.k < other.k; })
@@ -213,14 +206,14 @@ private:
 
 // Absolute tolerances far below each component's contribution to the forces: a relative tolerance alone could
 // not be met where a component passes through zero.
-State absolute_tolerances(const Chain &chain, const DirectOptions &options) {
+State absolute_tolerances(const Chain &chain, double impact_speed, double rtol) {
   const ChainParameters &p = chain.parameters();
   const double k = chain.largest_stiffness();
   const double c = chain.largest_damping();
   const double root = std::sqrt(p.m2 * k);
-  double force = std::max({p.Fw, (p.m2 + p.m3) * p.g, options.impact_speed * root});
+  double force = std::max({p.Fw, (p.m2 + p.m3) * p.g, impact_speed * root});
   if (force <= 0.0) force = 1.0;
-  const double part = 1e-2 * options.rtol * force;
+  const double part = 1e-2 * rtol * force;
   return {part / k, part * std::min(1.0 / (c + root), p.omega / k),
           part / std::max({p.k23, p.c23 * p.omega, p.m3 * p.omega * p.omega}),
           part / std::max({p.c23, p.k23 / p.omega, p.m3 * p.omega})};
@@ -267,7 +260,7 @@ struct Reached {
 // so that events are located to the rounding of the piece's length rather than of the whole run's.
 class Integrator {
 public:
-  Integrator(SUNContext context, const Chain &chain, const DirectOptions &options, bool bdf)
+  Integrator(SUNContext context, const Chain &chain, double impact_speed, double rtol, bool bdf)
       : chain_(chain), state_(N_VNew_Serial(4, context)), tolerance_(N_VNew_Serial(4, context)),
         dense_(N_VNew_Serial(4, context)), matrix_(SUNDenseMatrix(4, 4, context)),
         linear_(SUNLinSol_Dense(state_.get(), matrix_.get(), context)),
@@ -275,7 +268,7 @@ public:
     if (!state_ || !tolerance_ || !dense_ || !matrix_ || !linear_ || !memory_)
       throw std::runtime_error("CVODE could not be set up");
     put_state({0.0, 0.0, 0.0, 0.0}, state_.get());
-    put_state(absolute_tolerances(chain, options), tolerance_.get());
+    put_state(absolute_tolerances(chain, impact_speed, rtol), tolerance_.get());
     void *memory = memory_.get();
     check(CVodeInit(memory, &Integrator::right_hand_side, 0.0, state_.get()), "CVodeInit");
 #if SUNDIALS_VERSION_MAJOR >= 7
@@ -284,7 +277,7 @@ public:
     check(CVodeSetErrHandlerFn(memory, &Integrator::note_error, this), "CVodeSetErrHandlerFn");
 #endif
     check(CVodeSetUserData(memory, this), "CVodeSetUserData");
-    check(CVodeSVtolerances(memory, options.rtol, tolerance_.get()), "CVodeSVtolerances");
+    check(CVodeSVtolerances(memory, rtol, tolerance_.get()), "CVodeSVtolerances");
     check(CVodeSetLinearSolver(memory, linear_.get(), matrix_.get()), "CVodeSetLinearSolver");
     check(CVodeSetJacFn(memory, &Integrator::jacobian), "CVodeSetJacFn");
     // The pieces are linear: with the matrix always fresh one Newton iteration is exact.
@@ -388,8 +381,7 @@ private:
 
   void check(int flag, const char *function) const {
     if (flag >= 0) return;
-    std::string text =
-        fmt::format("the direct solver failed at t = {} s: {} returned {}", t0_, function, flag);
+    std::string text = fmt::format("CVODE failed at t = {} s: {} returned {}", t0_, function, flag);
     if (!message_.empty()) text += ": " + message_;
     std::replace(text.begin(), text.end(), '\n', ' ');
     throw std::runtime_error(text);
@@ -450,10 +442,10 @@ struct Moment {
   double force_rate = 0.0;
 };
 
-// Samples at equal times, extremes per cycle. Its grid refines the samples (DirectOptions::last_point()).
+// Samples at equal times, extremes per cycle. Its grid refines the samples (ExactOptions::last_point()).
 class Recorder {
 public:
-  Recorder(const Chain &chain, const DirectOptions &options)
+  Recorder(const Chain &chain, const ExactOptions &options)
       : chain_(chain), per_sample_(options.points_per_sample()), per_cycle_(options.points_per_cycle()),
         last_(options.last_point()), cycles_(static_cast<std::size_t>(last_ / per_cycle_) + 1) {}
 
@@ -579,8 +571,8 @@ private:
 
 class Run {
 public:
-  Run(const ChainParameters &parameters, const DirectOptions &options, const SolverProgress &progress)
-      : chain_(parameters, options.way), options_(options), progress_(progress), recorder_(chain_, options) {
+  Run(const ChainParameters &parameters, const ExactOptions &options, double rtol)
+      : chain_(parameters, options.way), options_(options), rtol_(rtol), recorder_(chain_, options) {
     SUNContext context = nullptr;
 #if SUNDIALS_VERSION_MAJOR >= 7
     const auto no_ranks = SUN_COMM_NULL;
@@ -591,7 +583,7 @@ public:
     context_.reset(context);
   }
 
-  DirectResult solve() {
+  ExactSolution solve() {
     begin();
     const double end = recorder_.end();
     recorder_.begin_piece(phase_, t_, y_);
@@ -654,7 +646,6 @@ private:
     const bool stiff = chain_.stiff(phase_, start);
     Integrator &integrator = method(stiff);
     integrator.start(phase_, start, y_, end - start);
-    result_.cost.bdf = result_.cost.bdf || stiff;
     if (start > 0.0) recorder_.begin_piece(phase_, start, y_);
 
     // Adams takes few long steps: look between their ends for extremes. BDF's steps are short.
@@ -662,12 +653,10 @@ private:
     double elapsed = 0.0;
     while (true) {
       const Reached reached = integrator.step();
-      constexpr long now_and_then = 1024; // steps: some milliseconds
-      if (++steps_ % now_and_then == 0 && progress_) progress_((start + reached.elapsed) / end);
       constexpr long most_steps = 200'000'000; // minutes: rounding can make steps short without end
-      if (steps_ > most_steps)
-        throw std::runtime_error(fmt::format("the direct solver took more than {} steps up to t = {} s",
-                                             most_steps, start + reached.elapsed));
+      if (++steps_ > most_steps)
+        throw std::runtime_error(
+            fmt::format("CVODE took more than {} steps up to t = {} s", most_steps, start + reached.elapsed));
       const Departure departure = first_departure(integrator, start, elapsed, reached);
       const double until = departure.exit ? departure.elapsed : reached.elapsed;
       const State y = until < reached.elapsed ? integrator.state_at(until) : integrator.state();
@@ -683,7 +672,7 @@ private:
       }
       elapsed = until;
       if (departure.exit || reached.at_end) {
-        result_.cost.steps += integrator.steps();
+        result_.pieces += integrator.steps();
         t_ = departure.exit ? start + elapsed : end;
         y_ = y;
         if (departure.exit) leave(*departure.exit);
@@ -787,25 +776,25 @@ private:
     result_.events.push_back(event);
     recorder_.event(event);
     constexpr std::size_t per_cycle = 100000;
-    constexpr std::size_t most = DirectOptions::most_events;
+    constexpr std::size_t most = ExactOptions::most_events;
     if (result_.events.size() > most)
-      throw std::runtime_error(fmt::format(
-          "the direct solver met more than {} contacts made and broken up to t = {} s", most, t_));
-    if (result_.events.size() > per_cycle * (1 + static_cast<std::size_t>(t_ / chain_.parameters().period())))
       throw std::runtime_error(
-          fmt::format("the direct solver met more than {} contacts made and broken per cycle up to t = {} s",
-                      per_cycle, t_));
+          fmt::format("CVODE met more than {} contacts made and broken up to t = {} s", most, t_));
+    if (result_.events.size() > per_cycle * (1 + static_cast<std::size_t>(t_ / chain_.parameters().period())))
+      throw std::runtime_error(fmt::format(
+          "CVODE met more than {} contacts made and broken per cycle up to t = {} s", per_cycle, t_));
   }
 
   Integrator &method(bool stiff) {
     std::unique_ptr<Integrator> &integrator = stiff ? bdf_ : adams_;
-    if (!integrator) integrator = std::make_unique<Integrator>(context_.get(), chain_, options_, stiff);
+    if (!integrator)
+      integrator = std::make_unique<Integrator>(context_.get(), chain_, options_.impact_speed, rtol_, stiff);
     return *integrator;
   }
 
   Chain chain_;
-  DirectOptions options_;
-  const SolverProgress &progress_;
+  ExactOptions options_;
+  double rtol_;
   long steps_ = 0;
   Recorder recorder_;
   ContextPointer context_;
@@ -815,63 +804,17 @@ private:
   double t_ = 0.0;
   State y_ = {};
   double made_at_ = 0.0;
-  DirectResult result_;
+  ExactSolution result_;
 };
 
 } // namespace
 
-const Range DirectOptions::cycles_range = {0.0, 25000.0, "", false, true};
-const Range DirectOptions::rtol_range = {1e-14, 1e-3};
-const Range DirectOptions::impact_speed_range = {1e-12, 1e6, "m/s", true};
-
-std::string DirectOptions::invalid() const {
-  if (!cycles_range.holds(cycles)) return refusal("cycles", cycles, cycles_range.words());
-  if (samples_per_cycle < 1 || samples_per_cycle > most_samples)
-    return refusal("samples-per-cycle", samples_per_cycle,
-                   fmt::format("a whole number from 1 to {}", most_samples));
-  constexpr double most_rows = 5e6; // some 2 GB of memory while they are written
-  if (cycles * samples_per_cycle > most_rows)
-    return refusal("cycles", cycles,
-                   fmt::format("with {} samples per cycle at most {:g}", samples_per_cycle,
-                               most_rows / samples_per_cycle));
-  if (!rtol_range.holds(rtol)) return refusal("rtol", rtol, rtol_range.words());
-  if (!impact_speed_range.holds(impact_speed))
-    return refusal("impact-speed", impact_speed, impact_speed_range.words());
-  return {};
-}
-
-namespace {
-
-double most_cycles(const Chain &chain) {
-  // A few steps each: about a minute.
-  constexpr double most_radians = 1e7;
-  return most_radians / (chain.fastest() * chain.parameters().period());
-}
-
-} // namespace
-
-double most_cycles(const ChainParameters &parameters) { return most_cycles(Chain(parameters)); }
-
-std::string too_much_work(const ChainParameters &parameters, const DirectOptions &options) {
-  const Chain chain(parameters, options.way);
-  const double most = most_cycles(chain);
-  if (options.cycles <= most) return {};
-  return refusal(
-      "cycles", options.cycles,
-      fmt::format(
-          "at most {:.3g} of this chain, which moves at up to {:.3g} rad/s against {:g} of the excitation",
-          most, chain.fastest(), parameters.omega));
-}
-
-DirectResult solve_direct(const ChainParameters &parameters, const DirectOptions &options,
-                          const SolverProgress &progress) {
+post::ExactSolution solve_by_cvode(const ChainParameters &parameters, const ExactOptions &options,
+                                   double rtol) {
   std::string fault = parameters.invalid();
   if (fault.empty()) fault = options.invalid();
-  if (fault.empty()) fault = too_much_work(parameters, options);
   if (!fault.empty()) throw std::invalid_argument(fault);
-  return Run(parameters, options, progress).solve();
+  return Run(parameters, options, rtol).solve();
 }
 
-std::string direct_solver_name() { return "CVODE " SUNDIALS_VERSION; }
-
-} // namespace drumlin::post
+} // namespace drumlin::test

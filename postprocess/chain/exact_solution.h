@@ -1,7 +1,6 @@
-// The reference solution of the chain: its ordinary differential equations solved without an engine, to which
-// runs of an engine and the closed form (chain/closed_form) are compared. CVODE integrates from one make or
-// break of contact (event) to the next; its root finding locates the events; it is started again at each
-// event, because the contact force changes its law there.
+// The exact solution of the chain soil - drum - frame and of a drum with two ends: their differential
+// equations solved without an engine, in closed form from one make or break of a contact (event) to the next.
+// Runs of an engine are compared with it.
 #pragma once
 
 #include "chain/driven_way.h"
@@ -16,11 +15,10 @@
 
 namespace drumlin::post {
 
-/// Length of the solution, recorded rows and accuracy.
-struct DirectOptions {
+/// Length of the solution, its start and its rows.
+struct ExactOptions {
   double cycles = 30.0;        ///< cycles of the excitation, from t = 0
   int samples_per_cycle = 200; ///< rows of the history per cycle; the first is at t = 0
-  double rtol = 1e-12; ///< relative tolerance of the integrator, 1e-14 to 1e-3; absolute ones follow it
   /// If positive: start at x_drum = 0 moving down at this speed [m/s], the frame with it and the bond
   /// unstretched (a roller that falls onto the soil), instead of at static equilibrium.
   double impact_speed = 0.0;
@@ -38,43 +36,40 @@ struct DirectOptions {
   long last_point() const { return std::llround(cycles * static_cast<double>(points_per_cycle())); }
 
   static constexpr std::size_t most_events = 5'000'000; ///< of a solution: a quarter of a gigabyte
-  static const Range cycles_range, rtol_range, impact_speed_range;
+  static constexpr double most_pieces = 2e7;            ///< of a solution: no more than a minute
+  static const Range cycles_range, impact_speed_range;
   static constexpr int most_samples = 1'000'000; ///< per cycle
 };
-
-/// The largest number of cycles that can be solved within minutes. A chain whose natural frequencies are far
-/// above that of the excitation needs very many steps per cycle.
-double most_cycles(const ChainParameters &parameters);
-
-/// Empty if the options have no more cycles than most_cycles(); else one line that names their number and how
-/// many are allowed.
-std::string too_much_work(const ChainParameters &parameters, const DirectOptions &options);
 
 /// Called from time to time with the share of the solution that is done, from 0 to 1.
 using SolverProgress = std::function<void(double)>;
 
-/// Computing effort of the solver.
-struct DirectCost {
-  long steps = 0;   ///< steps of the integrator, pieces of the closed form
-  bool bdf = false; ///< whether a part between two events was stiff, so that BDF was used instead of Adams
-};
-
-struct DirectResult {
+struct ExactSolution {
   ChainHistory history;             ///< samples at i period / samples_per_cycle
   std::vector<ContactEvent> events; ///< id_i 1 is the soil, id_j 2 the drum
   std::vector<CycleSummary> cycles; ///< one for each complete cycle
-  DirectCost cost;
+  long pieces = 0;                  ///< of the motion: the computing effort
 };
+
+/// The largest number of cycles of a chain that stands, or that is solved within minutes: one whose natural
+/// frequencies and decays are far above the excitation needs very many pieces per cycle. Of a decay that is
+/// much faster than all else the closed form is known; if contact and bond both decay so fast, the slower
+/// counts.
+double most_cycles(const ChainParameters &parameters);
+
+/// Empty if the options have no more cycles than can be solved within minutes; else one line that names their
+/// number and how many are allowed.
+std::string too_much_work(const ChainParameters &parameters, const ExactOptions &options);
 
 /// Solves the chain. Starts from static equilibrium
 ///     x2 = -(m2 + m3) g / k,  x3 = x2 - m3 g / k23,  v2 = v3 = 0
 /// or as an impact. A contact that begins at t = 0 with d = 0 (impact, or excitation without gravity) has an
 /// event, a make, at t = 0; a contact that already overlaps at t = 0 has none. Throws std::invalid_argument
-/// for parameters or options that cannot be used, std::runtime_error if the integrator fails.
-DirectResult solve_direct(const ChainParameters &parameters, const DirectOptions &options,
+/// for parameters or options that cannot be used.
+ExactSolution solve_chain(const ChainParameters &parameters, const ExactOptions &options,
                           const SolverProgress &progress = {});
-
-/// Name and version of the integrator, for the record.
-std::string direct_solver_name();
+/// Whole cycles from static equilibrium.
+/// \param lead cycles before the first sample, in which the motion settles
+ExactSolution solve_chain(const ChainParameters &parameters, int cycles, int samples_per_cycle, int lead = 0);
 
 } // namespace drumlin::post
