@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "commands/deck_variables.h"
 #include "contact/fix_stepping.h"
 #include "physics/laws/contact_mixing.h"
 #include "physics/scheme/stability_limit.h"
@@ -160,7 +161,9 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
   std::optional<double> yield;
   if (!in.empty() && in.peek() == "yield") {
     in.word("keyword");
-    yield = in.number("keyword yield, stiffness of unloading over that of first loading", Range{1.0});
+    const double ratio =
+        in.number("keyword yield, stiffness of unloading over that of first loading", Range{1.0});
+    if (ratio > 1.0) yield = ratio; // else the law is linear, and knows no ratio
   }
   in.expect_end(
       "k LIST D LIST friction LIST rolling off|epsd2 LIST [suction LIST] [yield RATIO] [variables NAME "
@@ -182,7 +185,7 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
 void pick_command(LAMMPS *lmp, int narg, char **arg) {
   Arguments in(lmp->error, "drumlin/pick", narg, arg);
   constexpr const char *allowed = "largest, or the place of a number in the list, from 1";
-  std::string name = in.word("variable", "the name of a variable");
+  const std::string name = in.word("variable", "the name of a variable");
   const std::string which = in.word("which", allowed), list = in.word("list", "numbers separated by commas");
   in.expect_end("a variable, which number, and a list");
   std::vector<double> numbers;
@@ -213,7 +216,7 @@ void pick_command(LAMMPS *lmp, int narg, char **arg) {
 /// in Pa, in two dimensions with F_a per metre of depth. Solved here for F_a.
 void suction_command(LAMMPS *lmp, int narg, char **arg) {
   Arguments in(lmp->error, "drumlin/suction", narg, arg);
-  std::string name = in.word("variable", "the name of a variable");
+  const std::string name = in.word("variable", "the name of a variable");
   const int bit = engine::group_bit(in.group("group", lmp->group));
   in.choice("keyword", {"strength"});
   const double strength = in.number("keyword strength", Range::non_negative);
@@ -234,10 +237,10 @@ void suction_command(LAMMPS *lmp, int narg, char **arg) {
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, lmp->world);
   if (sums[0] == 0.0) in.fail("the group has '0' balls; allowed: a group with balls");
   constexpr double pi = 3.141592653589793;
-  std::string words[] = {name, "string",
-                         fmt::format("{:.17g}", strength * pi * sums[1] / (solid * contacts * sums[0]))};
-  char *pointers[] = {words[0].data(), words[1].data(), words[2].data()};
-  lmp->input->variable->set(3, pointers);
+  if (strength == 0.0) return;
+  const std::string value = fmt::format("{:.17g}", strength * pi * sums[1] / (solid * contacts * sums[0]));
+  DeckVariables(lmp).set(name, value);
+  engine::log_message(lmp, fmt::format("suction {} N for the tensile strength {} Pa\n", value, strength));
 }
 
 } // namespace drumlin
