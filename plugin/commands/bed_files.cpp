@@ -240,12 +240,25 @@ RestartNotes notes_of(const std::string &file) {
   return notes.empty() ? notes_of_data_file(file) : notes;
 }
 
+std::string scene_file(const std::string &file) {
+  std::error_code failed;
+  const std::string data = file + ".data";
+  return engine::reads_data_beside && std::filesystem::exists(data, failed) ? data : file;
+}
+
+bool is_text(const std::string &file) {
+  std::ifstream in(file, std::ios::binary);
+  std::array<char, 256> begin{};
+  in.read(begin.data(), begin.size());
+  return std::find(begin.begin(), begin.begin() + in.gcount(), '\0') == begin.begin() + in.gcount();
+}
+
 std::string restart_fault(const std::string &file, const RestartNotes &notes) {
   const RestartNotes found = notes_of_restart(file);
   if (found.empty())
     return fmt::format(", which is incomplete, damaged or no restart file; allowed: a restart file of "
                        "drumlin/write or drumlin/run{}",
-                       engine::restart_alternative);
+                       engine::reads_data_beside ? ", or a data file NAME.data in the same folder" : "");
   for (const auto &[name, value] : with_engine(notes)) {
     const auto same_name = [&name = name](const auto &note) { return note.first == name; };
     const auto note = std::find_if(found.begin(), found.end(), same_name);

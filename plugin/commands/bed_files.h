@@ -48,6 +48,13 @@ bool can_be_read(const std::string &file);
 /// Notes of a complete restart file or of a data file; none of any other file. Not collective.
 RestartNotes notes_of(const std::string &file);
 
+/// The file that drumlin/read reads for a name: in LAMMPS FILE.data, if there is one, since the engines do
+/// not read each other's restart files. Not collective.
+std::string scene_file(const std::string &file);
+
+/// Whether a file is text, as data files are; restart files are not. Not collective.
+bool is_text(const std::string &file);
+
 /// Empty if a restart file is complete and has these notes; else the text that follows "variable NAME is
 /// 'FILE'" in an error. Not collective.
 std::string restart_fault(const std::string &file, const RestartNotes &notes);

@@ -225,7 +225,11 @@ private:
   void data_file() { stop_on(is_rank_0() ? data_file_fault(value_) : ""); }
   void restart() {
     const RestartNotes notes = read_notes(lmp_, in_);
-    stop_on(is_rank_0() ? restart_fault(value_, notes) : "");
+    if (!is_rank_0()) return stop_on("");
+    const std::string scene = scene_file(value_);
+    if (scene == value_) return stop_on(restart_fault(value_, notes));
+    const std::string fault = data_file_fault(scene);
+    stop_on(fault.empty() ? "" : ", of which this engine reads '" + scene + "'" + fault);
   }
   /// \param fault text behind the value, "; allowed: ..." or more; empty: none
   void stop_on(const std::string &fault) const {

@@ -20,8 +20,11 @@ void check_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// drumlin/roller FILE whole|per_metre [setting NAME]: sets the variables of a roller to those of its file.
 void roller_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/outputs [folder F] [continue STEP TIME] files NAME ... [numbered FOLDER PREFIX SUFFIX ...]: backs
-/// up the files of an earlier run, which are restored if the new run fails in its first steps.
+/// drumlin/read FILE [may_continue]: reads a bed, or a stopped run, which then continues.
+void read_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
+/// drumlin/outputs [folder F] files NAME ... [numbered FOLDER PREFIX SUFFIX ...]: backs up the files of an
+/// earlier run, which are restored if the new run fails in its first steps.
 void outputs_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/take FILE DECKS ALLOWED [fixed GROUP ...] [free GROUP ...] [except NAME ...] [only NAME ...]
@@ -82,6 +85,7 @@ void for_each_command(Add &&add) {
   add(CommandType<pick_command>(), "drumlin/pick", "takes a number from a list");
   add(CommandType<layers_command>(), "drumlin/layers", "gives contacts the laws of the layers of a bed");
   add(CommandType<outputs_command>(), "drumlin/outputs", "backs up the files of an earlier run");
+  add(CommandType<read_command>(), "drumlin/read", "reads a bed or a stopped run");
   add(CommandType<take_command>(), "drumlin/take", "takes the values with which a bed was made");
   add(CommandType<record_command>(), "drumlin/record", "writes the parameters of a run");
   add(CommandType<run_command>(), "drumlin/run", "runs with progress and a limit of wall time");

@@ -140,6 +140,8 @@ void DeckVariables::take(const TakenNotes &notes) {
 
 void DeckVariables::forget_notes() { remove(of_notes); }
 
+bool engine::continues(LAMMPS_NS::LAMMPS *lmp) { return DeckVariables(lmp).value("continues") == "1"; }
+
 bool DeckVariables::open() const { return value(of_open).value_or("") == "yes"; }
 
 void DeckVariables::close() { set(of_open, "no"); }

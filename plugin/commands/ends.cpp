@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -84,6 +85,9 @@ variables_of(const std::string &asked, const std::string &roller_name, const Val
   }
   const auto y = [](const AxleLink &link) { return link.y; };
   const auto k = [](const AxleLink &link) { return link.k; };
+  const double reach = std::accumulate(bonds.begin(), bonds.end(), 0.0, [](double sum, const AxleLink &bond) {
+    return sum + std::fabs(bond.y);
+  });
   std::vector<std::pair<std::string, std::string>> variables = {
       {"contact_count", fmt::format("{}", contacts.size())},
       {"contact_y", list_of(contacts, y)},
@@ -101,6 +105,7 @@ variables_of(const std::string &asked, const std::string &roller_name, const Val
                                                      {"frame_inertia", machine.frame_inertia},
                                                      {"exciter_place", machine.exciter},
                                                      {"sensor_distance", machine.sensor},
+                                                     {"bond_reach", reach},
                                                      {"drum_rest", rest[0]},
                                                      {"frame_rest", rest[1]},
                                                      {"drum_rest_tilt", rest[2]},

@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "commands/deck_variables.h"
 #include "contact/fix_stepping.h"
 #include "physics/laws/contact_mixing.h"
 #include "physics/scheme/stability_limit.h"
@@ -160,7 +161,9 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
   std::optional<double> yield;
   if (!in.empty() && in.peek() == "yield") {
     in.word("keyword");
-    yield = in.number("keyword yield, stiffness of unloading over that of first loading", Range{1.0});
+    const double ratio =
+        in.number("keyword yield, stiffness of unloading over that of first loading", Range{1.0});
+    if (ratio > 1.0) yield = ratio; // else the law is linear, and knows no ratio
   }
   in.expect_end(
       "k LIST D LIST friction LIST rolling off|epsd2 LIST [suction LIST] [yield RATIO] [variables NAME "
@@ -177,6 +180,67 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
     for (int b = 1; b <= types; ++b)
       table.push_back(contact(laws, a, b));
   engine::set_contacts(lmp, table, true, rolling, yield);
+}
+
+void pick_command(LAMMPS *lmp, int narg, char **arg) {
+  Arguments in(lmp->error, "drumlin/pick", narg, arg);
+  constexpr const char *allowed = "largest, or the place of a number in the list, from 1";
+  const std::string name = in.word("variable", "the name of a variable");
+  const std::string which = in.word("which", allowed), list = in.word("list", "numbers separated by commas");
+  in.expect_end("a variable, which number, and a list");
+  std::vector<double> numbers;
+  for (const std::string &entry : list_entries(list)) {
+    numbers.push_back(parse_number(entry));
+    if (!std::isfinite(numbers.back())) in.fail("list", list, "finite numbers separated by commas");
+  }
+  double picked = numbers.front();
+  if (which == "largest") {
+    picked = *std::max_element(numbers.begin(), numbers.end());
+  } else {
+    const double place = parse_number(which);
+    if (!(place >= 1.0) || place != std::floor(place)) in.fail("which", which, allowed);
+    if (numbers.size() > 1) { // a list of one number holds for all layers
+      if (place > static_cast<double>(numbers.size()))
+        in.fail("which", which, fmt::format("at most {}, the length of the list", numbers.size()));
+      picked = numbers[static_cast<std::size_t>(place) - 1];
+    }
+  }
+  std::string words[] = {name, "string", fmt::format("{:.17g}", picked)};
+  char *pointers[] = {words[0].data(), words[1].data(), words[2].data()};
+  lmp->input->variable->set(3, pointers);
+}
+
+/// Rumpf's tensile strength of a packing of solid fraction P, in which each ball has Z contacts on average,
+/// in all directions alike, and each contact can carry the tension F_a:
+///   S = P Z F_a <d> / (pi <d^n>),   n = 2, 3: number of dimensions; <>: mean over the balls of the group;
+/// in Pa, in two dimensions with F_a per metre of depth. Solved here for F_a.
+void suction_command(LAMMPS *lmp, int narg, char **arg) {
+  Arguments in(lmp->error, "drumlin/suction", narg, arg);
+  const std::string name = in.word("variable", "the name of a variable");
+  const int bit = engine::group_bit(in.group("group", lmp->group));
+  in.choice("keyword", {"strength"});
+  const double strength = in.number("keyword strength", Range::non_negative);
+  in.choice("keyword", {"solid"});
+  const double solid = in.number("keyword solid", {0.0, true, 1.0});
+  in.choice("keyword", {"contacts"});
+  const double contacts = in.number("keyword contacts", Range::positive);
+  in.expect_end("NAME GROUP strength S solid P contacts Z");
+
+  const LAMMPS_NS::Atom &atom = *lmp->atom;
+  std::array<double, 2> sums{}; // of d and of d^n
+  for (int i = 0; i < atom.nlocal; ++i) {
+    if (!(atom.mask[i] & bit)) continue;
+    const double d = 2.0 * atom.radius[i];
+    sums[0] += d;
+    sums[1] += lmp->domain->dimension == 2 ? d * d : d * d * d;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, lmp->world);
+  if (sums[0] == 0.0) in.fail("the group has '0' balls; allowed: a group with balls");
+  constexpr double pi = 3.141592653589793;
+  if (strength == 0.0) return;
+  const std::string value = fmt::format("{:.17g}", strength * pi * sums[1] / (solid * contacts * sums[0]));
+  DeckVariables(lmp).set(name, value);
+  engine::log_message(lmp, fmt::format("suction {} N for the tensile strength {} Pa\n", value, strength));
 }
 
 } // namespace drumlin

@@ -25,16 +25,17 @@ std::string file_argument(Error *error, int narg, char **arg) {
   return in.word("keyword file", drumlin::output_name_allowed);
 }
 
-bool append_argument(int narg, char **arg) {
+bool append_argument(LAMMPS *lmp, int narg, char **arg) {
   for (int n = 3; n + 1 < narg; ++n)
     if (std::string(arg[n]) == "append") return std::string(arg[n + 1]) == "yes";
-  return false;
+  return drumlin::engine::continues(lmp);
 }
 
 } // namespace
 
 FixContactEvents::FixContactEvents(LAMMPS *lammps, int narg, char **arg)
-    : FixPairObserver(lammps, narg, arg), file_(file_argument(error, narg, arg), append_argument(narg, arg)) {
+    : FixPairObserver(lammps, narg, arg),
+      file_(file_argument(error, narg, arg), append_argument(lammps, narg, arg)) {
   scalar_flag = 1;
   extscalar = 0;
   global_freq = 1;

@@ -231,14 +231,14 @@ void FixRollerHistory::setup(int) {
 /// Opens the files at the first set-up, with their header lines.
 void FixRollerHistory::open_files() {
   if (!file_) {
-    file_.emplace(file_name_, append_);
+    file_.emplace(file_name_, append_.value_or(drumlin::engine::continues(lmp)));
     file_->open(comm, error, world, file_keyword,
                 drumlin::history_header(frame_.groupbit != 0, bed_.has_value(), travel_ != nullptr,
                                         sensor_.has_value())
                     .c_str());
   }
   if (steps_per_cycle_ > 0 && !cycles_file_) {
-    cycles_file_.emplace(cycles_name_, append_);
+    cycles_file_.emplace(cycles_name_, append_.value_or(drumlin::engine::continues(lmp)));
     cycles_file_->open(
         comm, error, world, cycles_keyword,
         drumlin::cycles_header(bed_.has_value(), !ground_.empty(), yields(), travel_ != nullptr).c_str());

@@ -81,9 +81,9 @@ private:
 
   std::string file_name_, cycles_name_, excite_id_, travel_id_, frame_group_;
   std::vector<std::string> bond_ids_;
-  bool append_ = false;
-  int every_ = 0;           // steps between rows
-  int steps_per_cycle_ = 0; // 0: no cycles file
+  std::optional<bool> append_; ///< none: as drumlin/read has found
+  int every_ = 0;              // steps between rows
+  int steps_per_cycle_ = 0;    // 0: no cycles file
   std::array<double, 3> axis_{};
   bool has_axis_ = false;
 

@@ -109,7 +109,7 @@ constexpr int opens_step = LAMMPS_NS::FixConst::INITIAL_INTEGRATE;
 /// Number of bytes at the end of a restart file by which the engine recognizes that the file is complete.
 constexpr int restart_end_mark = 16;
 /// For error texts: what decks can read instead of a restart file NAME.
-constexpr const char *restart_alternative = ", or a data file NAME.data in the same folder";
+constexpr bool reads_data_beside = true;
 
 /// Sets up a run, as the command `run` does before its first step.
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(1); }

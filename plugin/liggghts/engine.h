@@ -103,8 +103,8 @@ constexpr int opens_step = LAMMPS_NS::FixConst::PRE_INITIAL_INTEGRATE;
 /// Number of bytes at the end of a restart file by which the engine recognizes that the file is complete;
 /// LIGGGHTS has none.
 constexpr int restart_end_mark = 0;
-/// For error texts: what decks can read instead of a restart file. Nothing in LIGGGHTS.
-constexpr const char *restart_alternative = "";
+/// Whether drumlin/read reads a data file NAME.data beside a restart file in its place.
+constexpr bool reads_data_beside = false;
 
 /// Sets up a run, as the command `run` does before its first step.
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(); }

@@ -18,6 +18,9 @@ inline void log_message(const LAMMPS *lmp, const std::string &text) {
 /// Notes why the run ends before its time, in the parameters that fix drumlin/outputs knows.
 void note_end(const LAMMPS *lmp, const std::string &why);
 
+/// Whether the run continues a stopped one, as drumlin/read has found.
+bool continues(LAMMPS *lmp);
+
 /// Ends the run on all ranks with the line "ERROR: TEXT", and notes it in the run's parameters. Collective.
 inline void stop(const LAMMPS *lmp, const std::string &text) {
   note_end(lmp, text);
