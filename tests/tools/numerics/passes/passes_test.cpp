@@ -458,8 +458,9 @@ TEST_F(Passes, HaveTheirPageInAReport) {
     return run_program({DRUMLIN_TOOLS, "report", "run", "--out", "report"}, {}, folder_);
   };
   well(report());
-  EXPECT_TRUE(contains(read_text(folder_ / "report/index.html"),
-                       {"<a href=\"passes/run/index.html\"><img src=\"passes/run/figures/compaction_key.svg\""}));
+  EXPECT_TRUE(
+      contains(read_text(folder_ / "report/index.html"),
+               {"<a href=\"passes/run/index.html\"><img src=\"passes/run/figures/compaction_key.svg\""}));
   EXPECT_TRUE(contains(read_text(folder_ / "report/passes/run/index.html"),
                        {"3 passes compact the lift", "k_B (MN/m per m of width)"}));
   ASSERT_TRUE(passes({"run"}).ok());
