@@ -19,4 +19,8 @@ namespace drumlin {
 /// Adds the contact models to the lists of the process; see contact_models.cpp.
 void add_contact_models();
 
+/// Adds those of a law; see law_models.h.
+template <class Contact>
+void add_law();
+
 } // namespace drumlin

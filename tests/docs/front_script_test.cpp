@@ -402,7 +402,7 @@ std::vector<std::string> demo_lines(bool with_lammps) {
   const auto add = [&](const std::string &name) {
     std::string number = std::to_string(++done);
     if (number.size() < 2) number.insert(0, " ");
-    lines.push_back("[" + number + (with_lammps ? "/26] " : "/18] ") + name);
+    lines.push_back("[" + number + (with_lammps ? "/27] " : "/19] ") + name);
   };
   for (const char *transition : {"A", "B"}) {
     add(std::string("impact, ") + transition);
@@ -411,6 +411,7 @@ std::vector<std::string> demo_lines(bool with_lammps) {
       if (with_lammps) add("in LAMMPS");
     }
   }
+  add("first pages of the report");
   add("results/demo/bed/balls.data: 300 balls");
   for (const char *name :
        {"bed comes to rest", "roller comes to rest", "bed, 1 cycles, A", "bed, 1 cycles, B"}) {
@@ -466,9 +467,10 @@ TEST_F(FrontScript, DemoEndsAtTheFirstRunThatFails) {
   };
   const Outcome failed = demo("echo going well; echo 'ERROR: too hot'; echo more; exit 5");
   EXPECT_EQ(failed.status, 1);
-  EXPECT_EQ(failed.output, "[ 1/20] impact, A              failed\n"
-                           "ERROR: drumlin demo: impact, A failed; its output is in "
-                           "results/demo/impact/A/screen.txt: ERROR: too hot\n");
+  EXPECT_EQ(failed.output.substr(failed.output.find('\n') + 1), // behind the line that says what is run
+            "[ 1/21] impact, A              failed\n"
+            "ERROR: drumlin demo: impact, A failed; its output is in "
+            "results/demo/impact/A/screen.txt: ERROR: too hot\n");
   EXPECT_EQ(post::read_text(folder / "results/demo/impact/A/screen.txt"),
             "going well\nERROR: too hot\nmore\n");
   EXPECT_FALSE(fs::exists(folder / "results/demo/chain"));

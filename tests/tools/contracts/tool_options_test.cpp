@@ -368,7 +368,7 @@ TEST_F(ToolOptions, TheEndsOfTheRangesHaveAnAnswer) {
 TEST_F(ToolOptions, LongWorkShowsProgress) {
   post::Program program;
   program.words = {DRUMLIN_TOOLS, "exact",      "--omega", "0.01",  "--cycles",
-                   "70",          "--contacts", "8",       "--out", "o"};
+                   "300",         "--contacts", "8",       "--out", "o"};
   program.folder = folder_;
   program.output = folder_ / post::program_output_file;
   program.limit = 60.0;
