@@ -59,7 +59,7 @@ void FixRollerHistory::parse(int narg, char **arg) {
     } else if (keyword == "soil") {
       soil_groupbit_ = engine::group_bit(in.group("keyword soil", group));
     } else if (keyword == "excite") {
-      excite_id_ = in.word("keyword excite", "the ID of a fix drum/excite");
+      excite_ids_.push_back(in.word("keyword excite", "the ID of a fix drum/excite"));
     } else if (keyword == "bond") {
       bond_ids_.push_back(in.word("keyword bond", "the ID of a fix bond/spring"));
     } else if (keyword == "ends") {
@@ -178,11 +178,25 @@ void FixRollerHistory::find_bodies() {
 
 /// The fixes that the keywords excite, bond and travel name, and the absorbing boundaries of a bed.
 void FixRollerHistory::find_partners() {
-  excite_ = dynamic_cast<FixDrumExcite *>(engine::find_fix(modify, excite_id_));
-  if (!excite_id_.empty() && excite_ == nullptr)
-    error->all(FLERR, engine::error_text(fmt::format(
-                          "fix roller/history: keyword excite is '{}'; allowed: the ID of a fix drum/excite",
-                          excite_id_)));
+  excites_.clear();
+  for (const std::string &excite : excite_ids_) {
+    auto *const found = dynamic_cast<FixDrumExcite *>(engine::find_fix(modify, excite));
+    if (found == nullptr || std::count(excites_.begin(), excites_.end(), found) > 0)
+      error->all(FLERR, engine::error_text(fmt::format(
+                            "fix roller/history: keyword excite is '{}'; allowed: the ID of a fix "
+                            "drum/excite, once for each",
+                            excite)));
+    excites_.push_back(found);
+  }
+  // The acceleration of the drum follows from all forces on it.
+  for (Fix *fix : engine::fixes(modify))
+    if (auto *const excite = dynamic_cast<FixDrumExcite *>(fix);
+        excite != nullptr && excite->igroup == igroup && !excites_.empty() &&
+        std::count(excites_.begin(), excites_.end(), excite) == 0)
+      error->all(FLERR, engine::error_text(fmt::format(
+                            "fix roller/history: keyword excite lacks '{}', which drives the group, too; "
+                            "allowed: excite ID once for each fix drum/excite of the group",
+                            excite->id)));
   bonds_.clear();
   for (const std::string &bond : bond_ids_) {
     bonds_.push_back(dynamic_cast<FixBondSpring *>(engine::find_fix(modify, bond)));
@@ -321,14 +335,14 @@ void FixRollerHistory::add_ground() {
 void FixRollerHistory::add_forces_of_partners(double moment) {
   drumlin::RollerForces &forces = state_.forces;
   double drum_force = forces.contact;
-  if (excite_) {
-    forces.excitation = excite_->compute_scalar();
+  for (FixDrumExcite *one : excites_) {
+    forces.excitation += one->compute_scalar();
     double upwards = 0.0; // component of the excitation along the axis
     for (int a = 0; a < 3; ++a)
-      upwards += excite_->compute_vector(a) * axis_[static_cast<std::size_t>(a)];
+      upwards += one->compute_vector(a) * axis_[static_cast<std::size_t>(a)];
     drum_force += upwards;
-    forces.excitation_power = upwards * (state_.drum.v + excite_->place() * state_.drum.rate);
-    moment += upwards * excite_->place();
+    forces.excitation_power += upwards * (state_.drum.v + one->place() * state_.drum.rate);
+    moment += upwards * one->place();
   }
   for (FixBondSpring *one : bonds_) {
     const physics::BondForce bond = one->evaluate();

@@ -79,8 +79,8 @@ private:
   bool yields() const;
   double along(const double *vector) const;
 
-  std::string file_name_, cycles_name_, excite_id_, travel_id_, frame_group_;
-  std::vector<std::string> bond_ids_;
+  std::string file_name_, cycles_name_, travel_id_, frame_group_;
+  std::vector<std::string> bond_ids_, excite_ids_;
   std::optional<bool> append_; ///< none: as drumlin/read has found
   int every_ = 0;              // steps between rows
   int steps_per_cycle_ = 0;    // 0: no cycles file
@@ -89,7 +89,7 @@ private:
 
   std::optional<drumlin::OutputFile> file_, cycles_file_;
   const drumlin::ContactSource *source_ = nullptr;
-  FixDrumExcite *excite_ = nullptr;
+  std::vector<FixDrumExcite *> excites_;
   FixDrumTravel *travel_ = nullptr;
   std::vector<FixBondSpring *> bonds_;
   std::optional<double> sensor_; // m, distance of a_left and a_right from the middle; none: nothing tilts

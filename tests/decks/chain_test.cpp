@@ -393,6 +393,47 @@ TEST(Settle, FindsAChainWithoutDampingAtRest) {
       "after 0 steps"));
 }
 
+// Two exciters of other frequencies: the record has the sum of their forces, with which the motion obeys
+// Newton's law between rows, and their work.
+TEST(TwoExciters, GiveTheSumOfTheirForcesAndTheirWork) {
+  std::string deck = read_text(chain_deck("in.chain"));
+  const auto put = [&deck](const std::string &before, const std::string &text) {
+    deck.insert(deck.find(before), text);
+  };
+  put("fix             events all", "fix second drum drum/excite amplitude 2e4 omega 200 direction 0 0 -1\n");
+  put("bond bond axis 0 0", "excite second ");
+  const Scratch scratch;
+  std::ofstream(scratch / "two.in") << deck;
+  well(run_deck(scratch / "two.in",
+                {{"here", chain_deck("").parent_path().string()}, {"cycles", "20"}, {"out", "."}},
+                scratch.path()));
+  const ChainHistory run = post::read_chain(scratch / "chain.csv");
+  const double omega = post::table1_case("II", Transition::B).omega;
+  for (std::size_t i = 0; i < run.size(); ++i)
+    EXPECT_NEAR(run.F_excitation[i],
+                58.8e3 * std::sin(omega * run.time[i]) + 2e4 * std::sin(200.0 * run.time[i]), 1e-6);
+  // The mean of the recorded accelerations over two intervals is the change of velocity over them; of 200
+  // rows a cycle those with a landing between them differ.
+  double left = 0.0, all = 0.0;
+  for (std::size_t i = 1; i + 1 < run.size(); ++i) {
+    const double rate = (run.v_drum[i + 1] - run.v_drum[i - 1]) / (run.time[i + 1] - run.time[i - 1]);
+    const double mean = (run.a_drum[i - 1] + 4.0 * run.a_drum[i] + run.a_drum[i + 1]) / 6.0;
+    left += std::fabs(rate - mean);
+    all += std::fabs(rate);
+  }
+  EXPECT_LT(left, 0.01 * all);
+  const post::Table sums = post::read_table(scratch / "cycles.csv");
+  const auto change = [&](const char *column) {
+    return sums.numbers(column).back() - sums.numbers(column).front();
+  };
+  const double work = change("work_excitation");
+  double balance = -work;
+  for (const char *column :
+       {"dissipated_contact", "dissipated_bond", "kinetic", "potential", "stored_contact", "stored_bond"})
+    balance += change(column);
+  EXPECT_NEAR(balance, 0.0, 1e-4 * work);
+}
+
 // The dashpot alone stops the drum within a small part of a step.
 TEST(HeavyDamping, SecondOrderSteppingFollowsTheDirectSolver) {
   ChainParameters p = post::table1_case("II", Transition::B);
