@@ -210,8 +210,8 @@ void pick_command(LAMMPS *lmp, int narg, char **arg) {
   lmp->input->variable->set(3, pointers);
 }
 
-/// Rumpf's tensile strength of a packing of solid fraction P, in which each ball has Z contacts on average,
-/// in all directions alike, and each contact can carry the tension F_a:
+/// Rumpf's tensile strength S of a packing with the solid fraction P. A ball has Z contacts on average, no
+/// direction is preferred, and each contact can carry the tension F_a:
 ///   S = P Z F_a <d> / (pi <d^n>),   n = 2, 3: number of dimensions; <>: mean over the balls of the group;
 /// in Pa, in two dimensions with F_a per metre of depth. Solved here for F_a.
 void suction_command(LAMMPS *lmp, int narg, char **arg) {

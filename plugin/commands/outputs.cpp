@@ -61,7 +61,7 @@ Outputs read_outputs(Arguments &in) {
   return outputs;
 }
 
-/// Makes the folders and backs up the files of an earlier run.
+/// Makes the folders and renames the files of an earlier run, so that they can be put back if this one fails.
 void prepare(OutputSet &set, const Outputs &outputs, const LAMMPS_NS::Update &now) {
   // Rows up to the present step are kept even if their time is rounded up.
   const double end = (static_cast<double>(now.ntimestep) + 0.5) * now.dt;

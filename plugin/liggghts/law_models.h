@@ -129,7 +129,7 @@ private:
   drumlin::ContactObservers observers_;
   drumlin::DeckCheck deck_check_;
   LAMMPS_NS::Clumps clumps_;
-  bool torsion_ = false; // whether rolling resistance also resists torsion
+  bool torsion_ = false; // torsionTorque on: rolling friction also brakes spin about the line of centres
 };
 
 template <class Models>

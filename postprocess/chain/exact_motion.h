@@ -56,7 +56,7 @@ struct MotionOf {
   struct Contact {
     ContactPhase phase = ContactPhase::flight;
     int boundary = -1;    ///< index of the event condition that its last event left at zero; -1: none
-    double changed = 0.0; ///< time of that event, or of the last step of its soil, as `time` [s]
+    double changed = 0.0; ///< time of that event, or when its soil last changed, as `time` [s]
   };
   std::array<Contact, System::most_contacts> contacts{};
 
@@ -69,7 +69,8 @@ struct MotionOf {
   }
 };
 
-/// A contact that is made or broken, or whose overlap without force ends.
+/// An event of a contact: it is made, it is broken, or drum and soil part after they overlapped without
+/// force.
 struct ContactChange {
   std::size_t contact = 0;
   ContactPhase from = ContactPhase::contact, to = ContactPhase::contact;
@@ -117,8 +118,9 @@ public:
   void finish_cycle(Motion &motion, Observer *observer = nullptr) const;
   /// The same to a time within the cycle [s].
   void go_to(double end, Motion &motion, Observer *observer = nullptr) const;
-  /// The soil is now that of another section of the way. Under B a step ends a contact whose force it makes a
-  /// tension, and begins one where it makes a compression of an overlap without force.
+  /// The soil is from now on that of another section of the way. Its stiffness and damping may jump: under B
+  /// a contact ends if its force would become a tension, and begins if soil that has overlapped without force
+  /// would be compressed.
   void drive_over(const WaySection &section, Motion &motion, Observer *observer = nullptr);
 
 protected:
@@ -143,7 +145,7 @@ template <class System>
 typename SolverOf<System>::Motion SolverOf<System>::start(double impact_speed) const {
   const bool falls = impact_speed > 0.0;
   Motion motion = start_at(falls ? system_.falling(impact_speed) : system_.at_rest());
-  // A contact that touches begins if it moves, or is about to be pushed down.
+  // A contact that just touches begins if the drum moves down, or an exciter is about to push it down.
   if (falls || system_.chain().Fw > 0.0)
     for (std::size_t j = 0; j < system_.contacts(); ++j)
       if (System::height(motion.state, system_.link(j, 0.0)) == 0.0) leave(motion, j, 0);

@@ -51,9 +51,9 @@ struct ExactSolution {
   long pieces = 0;                  ///< of the motion: the computing effort
 };
 
-/// The largest number of cycles of a chain that stands, or that is solved within minutes: one whose natural
-/// frequencies and decays are far above the excitation needs very many pieces per cycle. Of a decay that is
-/// much faster than all else the closed form is known; if contact and bond both decay so fast, the slower
+/// The largest number of cycles of a chain that stands, or that is solved within minutes: a motion that
+/// oscillates or decays much faster than the exciter needs very many pieces per cycle. One very fast decay,
+/// of a heavily damped contact or bond, costs nothing, since its closed form is known; of two, the slower
 /// counts.
 double most_cycles(const ChainParameters &parameters);
 

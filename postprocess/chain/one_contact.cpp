@@ -49,8 +49,9 @@ struct FastMode {
   std::array<Wide, 4> right{}, left{};
 };
 
-// The eigenvalue of largest modulus if it is real, with its vectors. Newton from beyond all roots goes down
-// to it. det(M r^2 + C r + K) = 0 has positive coefficients only, so each is known to full relative accuracy.
+// The fastest decay of the motion, if it does not oscillate, with its vectors: the root r of largest size of
+// det(M r^2 + C r + K) = 0, by Newton's iteration from beyond all roots. All coefficients are sums of
+// positive terms, so that nothing is lost to rounding.
 bool fastest_real_mode(const ChainParameters &p, double k, double c, FastMode &mode) {
   const Wide m2 = p.m2;
   const Wide m3 = p.m3;

@@ -41,8 +41,8 @@ public:
   /// \param k, c of the contact, both zero without one
   PhaseDynamics(const ChainParameters &parameters, double k, double c);
 
-  /// The longest allowed piece [s], `since` seconds after the phase began: short until a fast, heavily damped
-  /// part of the motion has decayed, then as long as the slower rest of the motion permits.
+  /// The longest allowed piece [s], `since` seconds after the phase began. While a heavily damped part of the
+  /// motion still decays pieces must be short; later the slower rest of the motion sets their length.
   double longest_piece(double since = std::numeric_limits<double>::infinity()) const;
   /// The motion from the state `from` over `length`, with the excitation from the phase omega t of `sine` and
   /// `cosine`.

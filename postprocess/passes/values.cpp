@@ -259,6 +259,7 @@ private:
   void identify_pass(const DrivenPass &pass, PassValues &values) {
     try {
       const IdentifiedRecord found = identify_record(part_of(drive_.record, pass), {});
+      if (const std::optional<std::string> why = contradiction(found)) throw std::runtime_error(*why);
       values.k = found.whole.law.k.mean;
       values.k_half_width = found.whole.law.k.half_width;
       values.D = found.whole.law.D.mean;

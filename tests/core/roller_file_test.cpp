@@ -66,6 +66,7 @@ TEST_F(RollerFile, ADataSheetGivesMassesMomentAndBond) {
   EXPECT_NEAR(roller.k23, 2091.00 * 4 * pi * pi * 4.82 * 4.82, 10.0);
   EXPECT_NEAR(derived(roller, "exciter_force"), 250e3, 1e-6);
   EXPECT_NEAR(derived(roller, "exciter_force_per_metre"), 125e3, 1e-6);
+  EXPECT_EQ(derived(roller, "width"), 2.0);
   EXPECT_NEAR(derived(roller, "static_load"), 58860.0, 1e-6);
   EXPECT_NEAR(derived(roller, "static_load_per_metre"), 29430.0, 1e-6);
   EXPECT_NEAR(derived(roller, "nominal_amplitude"), 1.8e-3, 1e-12);

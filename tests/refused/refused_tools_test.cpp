@@ -41,7 +41,8 @@ std::map<fs::path, std::string> content(const fs::path &folder) {
   return files;
 }
 
-/// The words of a command line. Single quotes surround a word with blanks, and an empty one.
+/// Splits a command line into words, as a shell does: single quotes keep blanks together, '' is an empty
+/// word.
 std::vector<std::string> words_of_row(const std::string &row) {
   std::vector<std::string> all = {DRUMLIN_TOOLS, ""};
   bool quoted = false;

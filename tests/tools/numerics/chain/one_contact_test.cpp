@@ -246,7 +246,6 @@ TEST(ChainSolver, ADoubleRootFollowsItsClosedForm) {
 TEST(ChainSolver, AFallReachesTheGroundWhenAndHowTheParabolaSays) {
   ChainParameters p;
   p.Fw = 0.0;
-  p.k23 = 0.0;
   p.c23 = 0.0;
   p.g = 9.81;
   p.k23 = 1e-6; // a bond that pulls with less than rounding

@@ -125,8 +125,9 @@ TEST(Regime, ASlowDepartureFromAnUnstableOrbitIsNotAperiodic) {
   EXPECT_LT(point.multiplier, 1.0);
 }
 
-// A multiplier of -0.997: the motion alternates about its orbit of period 1, so that states two cycles apart
-// are much nearer to each other than successive ones. CVODE has period 1 after 5000 cycles.
+// Each cycle a small difference from the periodic motion changes its sign and shrinks by 0.3 % (multiplier
+// -0.997). States two cycles apart are then nearly equal, which looks like period 2; CVODE finds period 1
+// after 5000 cycles.
 TEST(Regime, ASlowlyShrinkingAlternationHasPeriodOne) {
   ChainParameters p = table1_case("II", Transition::B);
   p.k = 166221021.0;

@@ -87,6 +87,7 @@ std::pair<std::string, std::string> dumps_of(const Bed &bed, long step) {
 
 /// What a run is made of.
 struct DriveRun {
+  bool soil_drives = false; ///< the soil gives energy to the drum, as none does
   int passes = 3;
   double end = 0.0; ///< s, of bed.csv; 0: after the last pause
   std::function<Bed(int)> bed = [](int pass) {
@@ -130,7 +131,7 @@ protected:
       const double a = acceleration * std::cos(w * t) + second * std::cos(2.0 * w * t);
       const double v = acceleration / w * std::sin(w * t) + 0.5 * second / w * std::sin(2.0 * w * t);
       const double x = -(acceleration * std::cos(w * t) + 0.25 * second * std::cos(2.0 * w * t)) / (w * w);
-      const double excitation = Fw * std::sin(w * t);
+      const double excitation = (run.soil_drives ? Fw : -Fw) * std::sin(w * t);
       bed += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},0,0,0,{:.17g},{:.17g},0,{:.17g},{:.17g},{},{},0,"
                          "{:.17g},{:.17g}\n",
                          t, x, v, a, m2 * (a + g) + m3 * g + excitation, excitation, exciter_power * t, s,
@@ -463,11 +464,32 @@ TEST_F(Passes, HaveTheirPageInAReport) {
                {"<a href=\"passes/run/index.html\"><img src=\"passes/run/figures/compaction_key.svg\""}));
   EXPECT_TRUE(contains(read_text(folder_ / "report/passes/run/index.html"),
                        {"3 passes compact the lift", "k_B (MN/m per m of width)"}));
+  const Table table = read_table(folder_ / "report/passes/run/data/passes_table.csv");
+  const std::vector<std::string> rows = table.text("quantity");
+  const auto k = [&](const std::string &row) {
+    const auto at = std::find(rows.begin(), rows.end(), row);
+    return at == rows.end() ? 0.0
+                            : std::stod(table.text("pass 1")[static_cast<std::size_t>(at - rows.begin())]);
+  };
+  EXPECT_NEAR(k("k of the whole drum (MN/m)"), 2.0 * k("k (MN/m per m of width)"), 0.1);  // it is 2 m wide
+  EXPECT_NEAR(k("k (MN/m per m of width)"), 1e-6 * m2 * w * w, 0.01 * 1e-6 * m2 * w * w); // as it was made
   ASSERT_TRUE(passes({"run"}).ok());
   well(report());
   EXPECT_FALSE(fs::exists(folder_ / "report/passes"));
   EXPECT_TRUE(fs::exists(folder_ / "report/studies/passes/index.html"));
   EXPECT_FALSE(contains(read_text(folder_ / "report/index.html"), {"without usable parameters"}));
+}
+
+// A record that contradicts itself has no k and D, and the answer says why.
+TEST_F(Passes, HaveNoStiffnessOfASoilThatDrivesTheDrum) {
+  DriveRun run;
+  run.soil_drives = true;
+  write_run("run", run);
+  const Outcome outcome = well(passes({"run"}));
+  EXPECT_TRUE(printed(outcome, {"k and D of pass 1 are not identified: ", "no soil drives the drum"}));
+  const Table table = read_table(folder_ / "run/passes.csv");
+  for (const char *column : {"k [N/m]", "D [-]"})
+    EXPECT_TRUE(table.text(column)[1].empty()) << column;
 }
 
 // A GIF has a graphic control extension for each of its pictures.

@@ -280,9 +280,9 @@ TEST(Excitation, LeavesOutSpuriousPulses) {
   }
 }
 
-// If a revolution takes nearly a whole number of samples, the place of an edge between two samples drifts
-// from revolution to revolution and comes back. That is no drift of the exciter. If it takes a whole number,
-// all edges stand at one place between two samples, which nothing tells.
+// A pulse's edge is seen at the next sample. If a revolution takes nearly a whole number of samples, the
+// error grows from revolution to revolution, up to a sample, and begins again: the exciter does not drift. If
+// it takes just a whole number, all edges have the same error, which the record cannot tell.
 TEST(Excitation, DoesNotFollowEdgesThatSamplesMove) {
   Roller roller;
   for (const double samples : {180.03, 180.0}) {
