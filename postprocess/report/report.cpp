@@ -123,11 +123,10 @@ void copy_studies(const std::vector<fs::path> &studies, const fs::path &report, 
   }
 }
 
-/// Writes the pages of passes of drives that have none of their own, each to passes/NAME.
+/// Writes the page of passes of each drive, to passes/NAME. (Those that have one are studies, not runs.)
 void write_passes_pages(const std::vector<fs::path> &runs, const fs::path &report, ReportContent &content) {
   for (const fs::path &run : runs) {
-    const fs::path own = run / "passes";
-    if (fs::exists(own / "index.html") || !drives(run)) continue;
+    if (!drives(run)) continue;
     try {
       const std::vector<PassesResult> passes = {measure_passes(read_drive(run), {})};
       const std::string name = fs::canonical(run).filename().string();
@@ -135,9 +134,9 @@ void write_passes_pages(const std::vector<fs::path> &runs, const fs::path &repor
       write_passes_page(report / place, passes, JudgedMap(meter_map(passes, cell_meter("CMV")), {}));
       content.studies.push_back(link_of(report, place, fmt::format("What the passes of {} leave", name)));
     } catch (const std::runtime_error &fault) {
-      content.left_out.push_back({own, fault.what()});
+      content.left_out.push_back({run / "passes", fault.what()});
     } catch (const std::invalid_argument &fault) {
-      content.left_out.push_back({own, fault.what()});
+      content.left_out.push_back({run / "passes", fault.what()});
     }
   }
 }
