@@ -307,8 +307,8 @@ std::vector<std::string> pages() {
   std::sort(names.begin(), names.end());
   for (const char *name :
        {"README.md", "inputs/benchmarks/README.md", "inputs/chain/README.md", "inputs/soil/README.md",
-        "inputs/study/observations/findings.md", "postprocess/README.md", "postprocess/identify.md",
-        "postprocess/map.md", "postprocess/meter.md", "postprocess/record.md"})
+        "inputs/study/observations/findings.md", "postprocess/README.md", "postprocess/both_ends.md",
+        "postprocess/identify.md", "postprocess/map.md", "postprocess/meter.md", "postprocess/record.md"})
     names.emplace_back(name);
   return names;
 }
