@@ -29,7 +29,8 @@ void CycleSums::add_step(const RollerState &before, const RollerState &now, doub
   work += half * (before.forces.excitation_power + now.forces.excitation_power);
   contact_dissipated +=
       half * (before.forces.contact_dissipated + now.forces.contact_dissipated) + now.forces.contact_missed;
-  bond_dissipated += half * (before.forces.bond_dissipated + now.forces.bond_dissipated);
+  bond_dissipated +=
+      half * (before.forces.bond_dissipated + now.forces.bond_dissipated) + now.forces.bond_released;
   tangential_work +=
       half * (before.forces.tangential_power + now.forces.tangential_power) + now.forces.tangential_missed;
   sinking -= now.drum.x;

@@ -175,7 +175,7 @@ physics::LinkModes FixBondSpring::modes(std::size_t ball) const {
 }
 
 physics::BondForce FixBondSpring::evaluate() {
-  if (!whole_) return {};
+  if (!whole_) return acted_;
   const State s = gather_state();
   return physics::bond_force(bond_, s.distance, s.rate);
 }
@@ -205,7 +205,10 @@ void FixBondSpring::setup(int vflag) {
 
 void FixBondSpring::post_force(int vflag) {
   begin_virial(vflag);
-  if (!whole_) return;
+  if (!whole_) {
+    acted_ = {};
+    return;
+  }
   state_ = gather_state();
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0) {
@@ -308,6 +311,7 @@ void FixBondSpring::store(const physics::BondForce &acting) {
                        "fix bond/spring {}: the bond of balls {} and {} broke at step {} under {:.6g} N", id,
                        tags_[0], tags_[1], update->ntimestep, acted_.force)));
   acted_ = {};
+  acted_.released = acting.stored;
 }
 
 void FixBondSpring::write_restart(FILE *file) {

@@ -348,6 +348,7 @@ void FixRollerHistory::add_forces_of_partners(double moment) {
     const physics::BondForce bond = one->evaluate();
     forces.bond += bond.force;
     forces.bond_dissipated += bond.dissipated;
+    forces.bond_released += bond.released;
     forces.bond_stored += bond.stored;
     if (sensor_) moment += (one->place(drum_body_->tilts()->axle) - centre_) * bond.force;
   }

@@ -23,6 +23,7 @@ struct RollerForces {
   double contact_missed = 0.0;     ///< J, heat of this step, see ContactObserver::see_heat()
   double contact_stored = 0.0;     ///< J
   double bond_dissipated = 0.0;    ///< W
+  double bond_released = 0.0;      ///< J, of bonds that have broken in this step
   double bond_stored = 0.0;        ///< J
   double excitation_power = 0.0;   ///< W, of the excitation on the drum
   double tangential_power = 0.0;   ///< W, taken from the balls by friction and rolling; of a bed only

@@ -110,6 +110,24 @@ TEST(EnergyOfASmoothChain, ErrorIsOfFirstOrder) {
   }
 }
 
+// The energy of a spring that breaks is heat from then on.
+TEST(EnergyOfAChain, WhoseBondBreaksIsKept) {
+  const Scratch scratch;
+  std::string deck = post::read_text(chain_deck("in.chain"));
+  const std::string length = "length $(v_r2+v_r3)";
+  deck.replace(deck.find(length), length.size(), length + " strength 1.5e4");
+  post::write_files({{scratch / "deck", deck}});
+  const Outcome outcome =
+      run_deck(scratch / "deck",
+               {{"here", chain_deck("").string()}, {"case", "II"}, {"transition", "B"}, {"cycles", "6"}},
+               scratch.path());
+  well(outcome);
+  EXPECT_TRUE(contains(outcome.output, "the bond of balls 2 and 3 broke at step "));
+  const EnergyBalance balance = balance_of(post::read_table(scratch / "cycles.csv"));
+  EXPECT_GT(balance.bond, 200.0); // of them 51 J in the spring
+  EXPECT_NEAR(balance.error(), 0.0, 1e-4);
+}
+
 // A make falls anywhere within a step, and the energy error depends on where. The measure is its largest
 // value over neighbouring numbers of steps.
 TEST(EnergyOfAnImpactingChain, ErrorHasAnEnvelopeOfFirstOrder) {

@@ -31,10 +31,11 @@ struct Bond {
 
 /// Force, energy and power of a bond at one instant.
 struct BondForce {
-  double force;      ///< N, positive in tension (it pulls the two balls together)
-  double stored;     ///< energy in the spring, J, k e^2 / 2
-  double dissipated; ///< power turned into heat by the dashpot, W, c e'^2, never negative
-  bool breaks;       ///< |force| is above the strength; `force` is that of the bond if it did not break
+  double force;          ///< N, positive in tension (it pulls the two balls together)
+  double stored;         ///< energy in the spring, J, k e^2 / 2
+  double dissipated;     ///< power turned into heat by the dashpot, W, c e'^2, never negative
+  bool breaks;           ///< |force| is above the strength; `force` is that of the bond if it did not break
+  double released = 0.0; ///< J, energy of a spring that has broken in this step: heat from then on
 };
 
 /// Force of a bond, F = k e + c e' with the stretch e = distance - length: the bond terms of Eq. (1), where e
