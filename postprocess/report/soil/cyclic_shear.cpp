@@ -177,7 +177,7 @@ PageFigure amplitude_figure(const std::vector<CyclicRun> &runs, const std::vecto
                   "amplitude of the "
                   "soil and damping ratio, at the last cycle, means over the seeds. Lines: published curves "
                   "of sand (Seed and "
-                  "Idriss 1970) and gravel (Menq 2003); inputs/soil/strength.md says how they were read.",
+                  "Idriss 1970) and gravel (Menq 2003); inputs/soil/cyclic_shear.md says how they were read.",
                   {name, "Samples sheared to and fro", {volume, modulus, damping}, 1}, 1.0);
   figure.csv = table.text();
   return figure;
