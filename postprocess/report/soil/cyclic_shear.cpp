@@ -3,6 +3,7 @@
 #include "engine/deck_run.h"
 #include "pages/figure_data.h"
 #include "report/soil/page_parts.h"
+#include "support/constants.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +22,7 @@ namespace {
 
 using CyclicRun = ElementRun<LoopRow>;
 
-constexpr double percent = 100.0, nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double percent = 100.0;
 const std::vector<std::string> varied = {"amplitude", "cycles", "samples_of_way"};
 
 /// The amplitude asked for, in percent.
@@ -63,7 +64,7 @@ double mean_of(const std::vector<double> &values) {
   double sum = 0.0;
   for (const double value : values)
     sum += value;
-  return values.empty() ? nan : sum / static_cast<double>(values.size());
+  return values.empty() ? not_a_number : sum / static_cast<double>(values.size());
 }
 
 /// The runs of a soil by their amplitude, in percent. A modulus is divided by that of the same seed at the
@@ -84,7 +85,7 @@ std::map<double, AtAmplitude> by_amplitude(const std::vector<CyclicRun> &runs, c
       const LoopRow &row = runs[n].rows[here.cycles - 1];
       const std::string seed = runs[n].run.text("seed");
       const auto of_seed = largest.find(seed);
-      const double ratio = of_seed == largest.end() ? nan : row.secant_modulus / of_seed->second;
+      const double ratio = of_seed == largest.end() ? not_a_number : row.secant_modulus / of_seed->second;
       here.volumetric.push_back(percent * row.volumetric_strain);
       here.damping.push_back(row.damping_ratio);
       if (std::isfinite(ratio)) here.ratio.push_back(ratio);
@@ -165,7 +166,7 @@ PageFigure amplitude_figure(const std::vector<CyclicRun> &runs, const std::vecto
                             ratio = published.numbers("modulus_ratio"),
                             share = published.numbers("damping_ratio");
   for (std::size_t n = 0; n < curves.size(); ++n)
-    table.row(curves[n], {amplitude[n], nan, ratio[n], share[n]});
+    table.row(curves[n], {amplitude[n], not_a_number, ratio[n], share[n]});
   std::size_t line = soils.size(); // other colours than those of the first soils
   for (const std::string &key : std::set<std::string>(curves.begin(), curves.end())) {
     modulus.curves.push_back(curve(name, key, "$2", "4", line_style(line)));
