@@ -243,6 +243,7 @@ void add_study_command(CLI::App &app, Session &) {
       "  drive      what passes of a roller leave in a lift, and what decides it\n"
       "  base       what yield, suction and density do for a roller on a base course\n"
       "  box        what width, depth, walls and absorbing sides of the box change\n"
+      "  cyclic     what cyclic simple shear does to loose and to dense soil\n"
       "  damping    where the energy of a cycle goes, and which damping follows\n"
       "  fidelity   effect and time of each part of a bed's model; `drumlin advise --bed` answers "
       "from it\n"

@@ -110,6 +110,19 @@ std::vector<ShearRow> read_shear(const fs::path &file) {
   return rows;
 }
 
+std::vector<LoopRow> read_loops(const fs::path &file) {
+  const Table table = read_table(file, CutRows::forget);
+  if (table.rows() == 0)
+    throw std::runtime_error(fmt::format("{}: 0 rows; allowed are 1 or more", file.string()));
+  return rows_of<LoopRow>(table, {{"cycle", &LoopRow::cycle},
+                                  {"amplitude", &LoopRow::amplitude},
+                                  {"secant_modulus_MPa", &LoopRow::secant_modulus},
+                                  {"damping_ratio", &LoopRow::damping_ratio},
+                                  {"damping_ratio_of_heat", &LoopRow::damping_ratio_of_heat},
+                                  {"volumetric_strain", &LoopRow::volumetric_strain},
+                                  {"void_ratio", &LoopRow::void_ratio}});
+}
+
 std::vector<PlateRow> read_plate(const fs::path &file) {
   const Table table = read_element_table(file);
   std::vector<PlateRow> rows = rows_of<PlateRow>(table, {{"phase", &PlateRow::phase},

@@ -72,6 +72,20 @@ struct ShearRow {
 /// Reads shear.csv. Throws std::runtime_error with file, line and column, or for less than two rows.
 std::vector<ShearRow> read_shear(const std::filesystem::path &file);
 
+/// A row of loops.csv: a cycle of a shear test to and fro.
+struct LoopRow {
+  double cycle = 0.0;                 ///< from 1
+  double amplitude = 0.0;             ///< of the shear strain, half of the range
+  double secant_modulus = 0.0;        ///< MPa
+  double damping_ratio = 0.0;         ///< from the area of the loop
+  double damping_ratio_of_heat = 0.0; ///< from what the contacts dissipate
+  double volumetric_strain = 0.0;     ///< positive in compression
+  double void_ratio = 0.0;
+};
+
+/// Reads loops.csv. Throws std::runtime_error with file, line and column, or if it has no rows.
+std::vector<LoopRow> read_loops(const std::filesystem::path &file);
+
 /// Parts of a plate load test, as in the column `phase` of plate.csv.
 enum class PlatePhase { seating = 0, first_loading = 1, unloading = 2, second_loading = 3 };
 

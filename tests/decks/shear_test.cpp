@@ -81,6 +81,94 @@ TEST_P(Shear, HasASecondOrderEnergyErrorOnALattice) {
   EXPECT_LT(errors.front(), 2e-4);
 }
 
+/// loops.csv of a run of in.shear.
+post::Table run_loops(const std::string &engine, const Variables &variables, int ranks = 1) {
+  return run_element_test(engine, "shear", variables, ranks, "loops.csv");
+}
+
+// As above the shear force of a ball is that of one contact pair, kn u/2 and c u'/2 of the dashpot, whether
+// two contacts are compressed or not: over a cycle of angular frequency w the lattice is a spring and a
+// dashpot side by side, whose damping ratio is c w/(2 kn), with c = 2 D sqrt(kn m*). m* is half the mass of a
+// ball, at the plates, which do not give way, the whole.
+TEST_P(Shear, FindsModulusAndDampingRatioOfAnElasticLattice) {
+  constexpr double kn = 1e9, mass = pi * 0.02 * 0.02 * 2650, damping = 1, amplitude = 1e-5, rate = 1.5e-3;
+  constexpr int layers = 9;
+  const post::Table loops =
+      run_loops(GetParam(), {{"sample", "hexagonal"},
+                             {"columns", "4"},
+                             {"layers", std::to_string(layers)},
+                             {"rolling", "0"},
+                             {"D", number(damping)},
+                             {"dt", number(0.025 * std::sqrt(mass / kn))},
+                             {"ramp", "8000"},
+                             {"every", "800"},
+                             {"cycles", "2"},
+                             {"amplitude", number(amplitude)},
+                             {"inertial_number", number(rate * 2 * 0.02 * std::sqrt(2650 / 1e5))}});
+  ASSERT_EQ(loops.rows(), 2u);
+  const double of_soil = damping * rate / amplitude * std::sqrt(mass / 2 / kn),
+               ratio = of_soil * (layers - 3 + 2 * std::sqrt(2.0)) / (layers - 1);
+  for (std::size_t n = 0; n < 2; ++n) {
+    EXPECT_NEAR(loops.numbers("amplitude")[n], amplitude, 1e-6 * amplitude);
+    EXPECT_NEAR(1e6 * loops.numbers("secant_modulus_MPa")[n], std::sqrt(3.0) / 4 * kn, 5e-3 * kn);
+    EXPECT_NEAR(loops.numbers("damping_ratio")[n], ratio, 0.02 * ratio);
+    EXPECT_NEAR(loops.numbers("damping_ratio_of_heat")[n], ratio, 0.02 * ratio);
+    EXPECT_NEAR(loops.numbers("volumetric_strain")[n], 0, 1e-4 * amplitude);
+  }
+}
+
+TEST_P(Shear, HasTheSameLoopsOnTwoRanks) {
+  const Variables variables = {{"sample", "hexagonal"}, {"columns", "4"},        {"layers", "7"},
+                               {"rolling", "0"},        {"samples_of_way", "8"}, {"cycles", "2"},
+                               {"amplitude", "1e-5"}};
+  const post::Table one = run_loops(GetParam(), variables), two = run_loops(GetParam(), variables, 2);
+  ASSERT_EQ(two.rows(), 2u);
+  for (const char *column : {"amplitude", "secant_modulus_MPa", "damping_ratio", "damping_ratio_of_heat"})
+    EXPECT_LT(relative_difference(two.numbers(column), one.numbers(column)), 1e-6) << column;
+}
+
+// In a disordered sample the area of a loop is what the contacts dissipate, less the work of the normal
+// stress; a dense one has hardly changed its volume after so few cycles.
+TEST_P(Shear, DissipatesTheAreaOfTheLoop) {
+  for (const char *dimension : {"2", "3"}) {
+    Variables variables = {{"columns", "10"}, {"layers", "10"}, {"seating", "50"},
+                           {"ramp", "1000"},  {"cycles", "2"},  {"amplitude", "2e-3"}};
+    if (std::string(dimension) == "3")
+      variables = {{"dimension", "3"}, {"columns", "4"},         {"rows", "4"},
+                   {"layers", "8"},    {"seating", "50"},        {"ramp", "1000"},
+                   {"cycles", "2"},    {"samples_of_way", "40"}, {"amplitude", "2e-3"}};
+    const post::Table loops = run_loops(GetParam(), variables);
+    ASSERT_EQ(loops.rows(), 2u) << dimension;
+    for (std::size_t n = 0; n < 2; ++n) {
+      const double ratio = loops.numbers("damping_ratio")[n];
+      EXPECT_GT(ratio, 0.05) << dimension;
+      EXPECT_LT(ratio, 2 / pi) << dimension; // that of a rectangle
+      EXPECT_NEAR(loops.numbers("damping_ratio_of_heat")[n], ratio, 0.02 * ratio) << dimension;
+      EXPECT_NEAR(loops.numbers("amplitude")[n], 2e-3, 1e-7) << dimension;
+      EXPECT_LT(std::fabs(loops.numbers("volumetric_strain")[n]), 4e-3) << dimension;
+    }
+  }
+}
+
+// The platen starts in the middle and is at either side at the turns, after all cycles as after the first.
+TEST_P(Shear, ReturnsToTheSamePlacesAtTheTurns) {
+  const post::Table rows = run_element_test(GetParam(), "shear",
+                                            {{"sample", "hexagonal"},
+                                             {"columns", "4"},
+                                             {"layers", "7"},
+                                             {"rolling", "0"},
+                                             {"samples_of_way", "4"},
+                                             {"cycles", "5"},
+                                             {"amplitude", "1e-5"}});
+  ASSERT_EQ(rows.rows(), 1 + 4 * 11u);
+  const std::vector<double> strain = rows.numbers("shear_strain"), cycle = rows.numbers("cycle");
+  for (std::size_t way = 0; way < 11; ++way) {
+    EXPECT_NEAR(strain[4 * way + 4], way % 2 == 0 ? 1e-5 : -1e-5, 1e-11) << way;
+    EXPECT_EQ(cycle[4 * way + 4], (way + 1) / 2);
+  }
+  EXPECT_EQ(strain[0], 0);
+}
+
 // A dense sample fails and dilates; the normal stress stays what it should be.
 TEST_P(Shear, ShearsADisorderedSample) {
   const post::Table rows = run_element_test(GetParam(), "shear",

@@ -301,6 +301,31 @@ TEST_P(Density, MakesTheLoosestAndTheDensestPacking) {
   }
 }
 
+// Shaking brings a packing that keeps its friction from the loosest towards the densest, but not beyond that
+// without friction; a lattice has nowhere to go.
+TEST_P(Density, ShakesThePackingUntilItStays) {
+  const post::Table lattice =
+      run_element_test(GetParam(), "density", {{"sample", "hexagonal"}, {"densest", "shaken"}});
+  EXPECT_NEAR(lattice.numbers("solid_fraction")[1], lattice.numbers("solid_fraction")[0], 5e-4);
+  for (const int dimensions : {2, 3}) {
+    Variables variables = {{"columns", "10"}, {"layers", "12"}, {"k", "1e7"}};
+    if (dimensions == 3)
+      variables = {{"dimension", "3"}, {"columns", "4"}, {"rows", "4"},
+                   {"layers", "8"},    {"beside", "1"},  {"k", "4e5"}};
+    const std::vector<double> frictionless =
+        run_element_test(GetParam(), "density", variables).numbers("solid_fraction");
+    variables.emplace_back("densest", "shaken");
+    const post::Table packings = run_element_test(GetParam(), "density", variables);
+    ASSERT_EQ(packings.rows(), 2u);
+    const std::vector<double> solid = packings.numbers("solid_fraction");
+    EXPECT_NEAR(solid[0], frictionless[0], 1e-6) << dimensions;
+    EXPECT_GT(solid[1], solid[0] + (dimensions == 2 ? 0.02 : 0.01)) << dimensions;
+    EXPECT_LT(solid[1], frictionless[1] + 0.005) << dimensions;
+    EXPECT_EQ(packings.numbers("friction")[1], 0.8) << dimensions;
+    EXPECT_EQ(packings.numbers("share")[1], 1) << dimensions;
+  }
+}
+
 std::string oedometer_name(const ::testing::TestParamInfo<Oedometer::ParamType> &info) {
   const auto &[engine, lattice, friction] = info.param;
   return engine + "_" + lattice.name + (friction == "0" ? "_frictionless" : "_friction");

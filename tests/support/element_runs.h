@@ -12,14 +12,14 @@
 
 namespace drumlin::test {
 
-/// Runs a deck of inputs/soil in an engine and returns its CSV file: "biaxial" has in.biaxial(.lammps) and
-/// biaxial.csv. Throws std::runtime_error with the output of a run that fails.
+/// Runs a deck of inputs/soil in an engine and returns a table, by default that of the test: "biaxial" has
+/// in.biaxial(.lammps) and biaxial.csv. Throws std::runtime_error with the output of a run that fails.
 inline post::Table run_element_test(const std::string &engine, const std::string &name,
-                                    const Variables &variables, int ranks = 1) {
+                                    const Variables &variables, int ranks = 1, const std::string &file = "") {
   const Scratch scratch;
   const std::string deck = "../soil/in." + name + (engine == "lammps" ? ".lammps" : "");
   well(run_deck(chain_deck(deck), variables, scratch.path(), ranks));
-  return post::read_table(scratch / (name + ".csv"));
+  return post::read_table(scratch / (file.empty() ? name + ".csv" : file));
 }
 
 /// Tests in an engine, "liggghts" or "lammps"; skipped if LAMMPS is not set up.

@@ -97,7 +97,8 @@ PageWriter read_density_page(const std::vector<fs::path> &folders) {
     Page page(out, density_title, std::nullopt);
     page.answer(
         "Balls that sank to a rough floor and came to rest: with the friction of the soil they form its "
-        "loosest packing, without friction its densest. Between these void ratios a bed of this soil "
+        "loosest packing, without friction or shaken its densest. Between these void ratios a bed of this "
+        "soil "
         "can be made.");
     for (const SoilGroup &soil : soils_of(runs, {"shares"}))
       page.answer(answer_of(runs, soil));

@@ -1,6 +1,7 @@
 #include "report/soil/element_tests.h"
 
 #include "report/soil/compression.h"
+#include "report/soil/cyclic_shear.h"
 #include "report/soil/density.h"
 #include "report/soil/oedometer.h"
 #include "report/soil/own_weight.h"
@@ -15,6 +16,7 @@ std::vector<ElementTest> element_tests() {
           {"biaxial", biaxial_title, read_biaxial_page},
           {"triaxial", triaxial_title, read_triaxial_page},
           {"plate", plate_title, read_plate_page},
+          {"loops", cyclic_shear_title, read_cyclic_shear_page}, // before shear, whose file it has, too
           {"shear", shear_title, read_shear_page},
           {"repose", repose_title, read_repose_page},
           {"silo", silo_title, read_silo_page},

@@ -116,15 +116,15 @@ void SeedValues::add(const std::string &seed, double value) {
   if (std::isfinite(value)) values_[seed].push_back(value);
 }
 
-std::string SeedValues::mean_text() const {
+std::string SeedValues::mean_text(int decimals) const {
   if (values_.empty()) return no_value;
   std::vector<double> means;
   means.reserve(values_.size());
   for (const auto &[seed, of_seed] : values_)
     means.push_back(mean_interval(of_seed).mean);
   const MeanInterval mean = mean_interval(means);
-  return means.size() < 2 ? fmt::format("{:.1f}", mean.mean)
-                          : fmt::format("{:.1f} ± {:.1f}", mean.mean, mean.half_width);
+  return means.size() < 2 ? fmt::format("{:.{}f}", mean.mean, decimals)
+                          : fmt::format("{:.{}f} ± {:.{}f}", mean.mean, decimals, mean.half_width, decimals);
 }
 
 std::string SeedValues::range_text() const {

@@ -136,7 +136,7 @@ public:
   void add(const std::string &seed, double value);
   /// "mean ± half of the 95 % confidence interval" over the seeds; of one seed the mean alone; no_value
   /// without values.
-  std::string mean_text() const;
+  std::string mean_text(int decimals = 1) const;
   /// "smallest to largest"; no_value without values.
   std::string range_text() const;
 
