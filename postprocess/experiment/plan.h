@@ -27,6 +27,12 @@ struct Comparison {
   bool paired = true;
 };
 
+/// A point that others have published of a quantity over an axis; pages draw it.
+struct PublishedPoint {
+  std::string axis, series, source, quantity;
+  double at = 0.0, value = 0.0; ///< in the units of the axis and the quantity
+};
+
 /// What Plan::can_be_scaled() asks for, in words.
 constexpr const char *what_can_be_scaled = "with a plan of beds in the plane that has stiffness and all of "
                                            "r2, r3, m2, m3, k23, c23, Fw, but no place";
@@ -38,9 +44,13 @@ struct Plan {
   std::vector<Axis> axes;
   std::vector<Scene> scenes; ///< the first is that to which bed sizes refer
   std::vector<Comparison> comparisons;
-  std::string text;                  ///< of a file with this plan
-  std::filesystem::path deck_folder; ///< of decks that are not in inputs/
-  bool names_deck_folder = false;    ///< whether the text does
+  double between_engines =
+      0.0; ///< largest difference of a scene in LAMMPS from its twin, as an error of Expected
+  std::vector<PublishedPoint> published;
+  std::vector<std::filesystem::path> files; ///< with known values and published points
+  std::string text;                         ///< of a file with this plan
+  std::filesystem::path deck_folder;        ///< of decks that are not in inputs/
+  bool names_deck_folder = false;           ///< whether the text does
 
   /// The text of this plan for a file in another folder.
   std::string copy() const;
@@ -57,8 +67,9 @@ struct Plan {
 };
 
 /// Reads a plan: lines `keyword value`, # begins a comment; inputs/study/plans.md has the keywords. Decks are
-/// looked for in the folder of the plan, or that of its line deck_folder, then in inputs/. Throws UsageError
-/// "FILE, line LINE: KEYWORD is 'VALUE'; allowed: WHAT".
+/// looked for in the folder of the plan, or that of its line deck_folder, then in inputs/; so are files of
+/// known values. Scenes that are to run in LAMMPS, too, are left out where it is not set up. Throws
+/// UsageError "FILE, line LINE: KEYWORD is 'VALUE'; allowed: WHAT".
 Plan read_plan(const std::filesystem::path &file);
 
 } // namespace drumlin::post

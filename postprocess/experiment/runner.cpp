@@ -214,9 +214,15 @@ void run_experiment(const Plan &plan, const fs::path &out, const RunOptions &opt
   if (options.page_only)
     for (const std::string &name : runs.missing())
       fmt::print("missing: {}\n", name);
-  write_experiment_page(out, plan, read_results(out, plan), failures);
+  const Results results = read_results(out, plan);
+  write_experiment_page(out, plan, results, failures);
   fmt::print("{}\n", (out / "index.html").string());
   throw_if_any(failures, "the page tells which");
+  const std::vector<Judged> rows = judged(plan, results);
+  const auto missed = std::count_if(rows.begin(), rows.end(), [](const Judged &row) { return !row.holds; });
+  if (missed > 0)
+    throw std::runtime_error(
+        fmt::format("{} of {} known values are not met; the page tells which", missed, rows.size()));
 }
 
 void make_part(const Plan &plan, const Part &part, const fs::path &folder, const RunOptions &options) {

@@ -420,7 +420,7 @@ TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
                                      {"calibration/soil_tests.cpp", "report/soil/plate.h"},
                                      {"chain/analysis.cpp", "nowhere/run_folder.h"},
                                      {"lab/accuracy/page.cpp", "lab/stability/map.h"},
-                                     {"lab/accuracy/page.cpp", "lab/benchmarks/runs.h"},
+                                     {"lab/accuracy/page.cpp", "lab/timing/results.h"},
                                      {"report/chain/page.cpp", "report/bed/page.h"},
                                      {"commands/demo.cpp", "lab/studies.h"}})
     EXPECT_FALSE(fits_postprocess(file, header)) << file << " " << header;

@@ -294,6 +294,65 @@ TEST(ExperimentPage, WritesNamesOfThePlanAsTheyAre) {
   }
 }
 
+/// A scene with a known value in both engines, and another.
+post::Plan plan_with_known_values() {
+  post::Plan plan;
+  plan.title = "T";
+  plan.quantities = {post::column_quantity("height", "m", "last", "f.csv", "h"),
+                     post::column_quantity("time", "s", "last", "f.csv", "t")};
+  plan.axes = {{"load", "load [N]"}};
+  plan.published = {{"load", "s", "a book", "height", 2.5, 0.3}};
+  plan.between_engines = 1e-3;
+  const auto add = [&plan](const std::string &name, const std::string &family, const std::string &twin) {
+    post::Scene scene;
+    scene.name = name, scene.family = family, scene.twin = twin, scene.series = "s";
+    if (twin.empty()) scene.at["load"] = static_cast<double>(plan.scenes.size());
+    scene.expected = {{"height", 0.5, 2.0, 0.01, "a book"}};
+    plan.scenes.push_back(scene);
+  };
+  add("a: x 1", "a", "");
+  add("a: x 1 in LAMMPS", "a", "a: x 1");
+  add("b", "b", "");
+  return plan;
+}
+
+TEST(KnownValues, AreMetWithinTheirTolerancesAndInBothEngines) {
+  const post::Plan plan = plan_with_known_values();
+  const auto holds = [&plan](double first, double twin, double other) {
+    std::vector<bool> found;
+    for (const post::Judged &row :
+         post::judged(plan, Results({{"a: x 1", 1, "height", "m", first, 1.0},
+                                     {"a: x 1 in LAMMPS", 1, "height", "m", twin, 1.0},
+                                     {"b", 1, "height", "m", other, 1.0}})))
+      found.push_back(row.holds);
+    return found;
+  };
+  using Found = std::vector<bool>;
+  EXPECT_EQ(holds(0.518, 0.519, 0.481), (Found{true, true, true})); // errors are relative to 2 m
+  EXPECT_EQ(holds(0.521, 0.5195, 0.479), (Found{false, true, false}));
+  EXPECT_EQ(holds(0.500, 0.503, none), (Found{true, false, false}));
+  EXPECT_EQ(post::judged(plan, Results({{"b", 1, "time", "s", 1.0, 1.0}})).size(), 1U); // it gave no height
+}
+
+TEST(ExperimentPage, ShowsKnownValuesAndPublishedPoints) {
+  const post::TemporaryFolder temporary(testing::TempDir(), "experiment_known");
+  std::vector<Result> rows;
+  for (const auto &[scene, value] : {std::pair{"a: x 1", 0.5}, {"a: x 1 in LAMMPS", 0.5}, {"b", 0.6}}) {
+    rows.push_back({scene, 1, "height", "m", value, 1.0});
+    rows.push_back({scene, 1, "time", "s", 1.0, 1.0});
+  }
+  post::write_experiment_page(temporary.path(), plan_with_known_values(), Results(rows), {});
+  expect_sound_page(temporary.path(), 1, "index.html", 0);
+  EXPECT_NE(post::read_text(temporary.path() / "index.html").find("1 of 2 acceptance criteria hold"),
+            std::string::npos);
+  const post::Table summary = post::read_table(temporary.path() / "data/summary.csv");
+  EXPECT_EQ(summary.text("scene"), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(summary.text("runs"), (std::vector<std::string>{"2", "1"}));
+  EXPECT_EQ(summary.text("largest error"), (std::vector<std::string>{"0.0e+00", "5.0e-02"}));
+  EXPECT_NE(post::read_text(temporary.path() / "figures/over_load.svg").find("published, s, a book"),
+            std::string::npos);
+}
+
 TEST(ResultRows, ComeBackBitForBit) {
   const post::TemporaryFolder temporary(testing::TempDir(), "results");
   const fs::path file = temporary.path() / "runs.csv";
