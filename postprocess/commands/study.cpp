@@ -251,6 +251,7 @@ void add_study_command(CLI::App &app, Session &) {
       "from it\n"
       "  friction   the friction models coulomb and history\n"
       "  benchmarks published tests of one or two spheres, in both engines against closed forms\n"
+      "  extremes   runs at the limits of the allowed parameters, against independent solutions\n"
       "  penetration a ball that sinks into a bed, against laws that others measured\n"
       "  scatter    how many beds give a result within 5 or 10 %; A against B\n"
       "  stiffness  k and D that `drumlin identify` finds, over load, force and frequency\n"

@@ -296,10 +296,10 @@ private:
     constexpr std::size_t own = 5;
     Quantity quantity;
     if (words.size() == 1) {
-      const Quantity *known = bed_quantity(words[0]);
+      const Quantity *known = named_quantity(words[0]);
       if (known == nullptr) {
         std::vector<std::string> names;
-        for (const Quantity &one : bed_quantities())
+        for (const Quantity &one : named_quantities())
           names.push_back(one.name);
         refuse(fmt::format("{}, or NAME UNIT WAY FILE COLUMN", fmt::join(names, ", ")));
       }
@@ -557,9 +557,12 @@ private:
     if (!tolerance || !std::isfinite(*value) || !(*tolerance >= 0.0))
       refuse("QUANTITY VALUE TOLERANCE SOURCE, or the file of such values before the first scene");
     if (!has_quantity(words[0])) refuse("QUANTITY VALUE TOLERANCE SOURCE, a quantity of the plan");
-    if (seen_.insert(keyword_).second) scene().expected.clear(); // those of the scene above
+    if (seen_.insert(keyword_).second) scene().expected.clear();  // those of the scene above
+    const std::vector<std::string> parts = parts_of(value_, '|'); // with a scene that is the scale
+    const std::vector<std::string> source = words_of(parts.front());
     scene().expected.push_back({words[0], *value, 1.0, *tolerance,
-                                fmt::format("{}", fmt::join(words.begin() + 3, words.end(), " "))});
+                                fmt::format("{}", fmt::join(source.begin() + 3, source.end(), " ")),
+                                parts.size() > 1 ? parts[1] : std::string()});
   }
   bool has_quantity(const std::string &name) const {
     return std::any_of(plan_.quantities.begin(), plan_.quantities.end(),
@@ -686,7 +689,10 @@ private:
       if (over.names.empty()) all.push_back(scene);
       for (std::size_t n = 0; n < over.values.size(); ++n) {
         Scene one = scene;
-        one.name = fmt::format("{}: {} {}", scene.name, over.names.front(), over.values[n].front());
+        const std::string suffix = fmt::format(": {} {}", over.names.front(), over.values[n].front());
+        one.name += suffix;
+        for (Expected &expected : one.expected)
+          if (!expected.scale_of.empty()) expected.scale_of += suffix;
         for (std::size_t v = 0; v < over.names.size(); ++v)
           set(one, over.names[v], over.values[n][v]);
         for (const auto &[axis, rule] : over.at)
@@ -699,6 +705,11 @@ private:
       for (const auto &[scene, base] : one.pairs)
         for (const std::string &name : {scene, base})
           if (!has_scene(name)) refuse("scene", name, "without over, since it is compared", 0);
+    for (const Scene &scene : plan_.scenes)
+      for (const Expected &expected : scene.expected)
+        if (!expected.scale_of.empty() && !has_scene(expected.scale_of))
+          refuse("expect", expected.scale_of, "behind | a scene, which has the same line over as this one",
+                 0);
   }
   bool has_scene(const std::string &name) const {
     return std::any_of(plan_.scenes.begin(), plan_.scenes.end(),
@@ -774,6 +785,19 @@ private:
 };
 
 } // namespace
+
+std::vector<Quantity> Plan::measured_in(const Scene &scene) const {
+  const auto knows = [](const Scene &one, const Quantity &quantity) {
+    return std::any_of(one.expected.begin(), one.expected.end(),
+                       [&quantity](const Expected &known) { return known.quantity == quantity.name; });
+  };
+  std::vector<Quantity> measured;
+  for (const Quantity &quantity : quantities)
+    if (knows(scene, quantity) ||
+        std::none_of(scenes.begin(), scenes.end(), [&](const Scene &one) { return knows(one, quantity); }))
+      measured.push_back(quantity);
+  return measured;
+}
 
 const Scene &Plan::scene(const std::string &name) const {
   return *std::find_if(scenes.begin(), scenes.end(), [&name](const Scene &one) { return one.name == name; });

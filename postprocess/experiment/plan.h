@@ -54,6 +54,9 @@ struct Plan {
 
   /// The text of this plan for a file in another folder.
   std::string copy() const;
+  /// The quantities that are measured in a scene: those for which it has a known value, and those for which
+  /// no scene has one.
+  std::vector<Quantity> measured_in(const Scene &scene) const;
   /// \pre there is one of that name
   const Scene &scene(const std::string &name) const;
   /// Whether its beds can be made smaller or larger: all are in the plane, all variables of the roller are

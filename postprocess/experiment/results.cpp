@@ -185,9 +185,12 @@ std::vector<Judged> judged(const Plan &plan, const Results &results) {
     if (std::find(known.begin(), known.end(), scene.name) == known.end()) continue;
     for (const Expected &expected : scene.expected) {
       Judged one{&scene, &expected, mean_of(scene.name, expected.quantity)};
-      one.error = std::fabs(one.found - expected.value) / expected.scale;
+      const double scale = expected.scale_of.empty()
+                               ? expected.scale
+                               : std::fabs(mean_of(expected.scale_of, expected.quantity));
+      one.error = std::fabs(one.found - expected.value) / scale;
       if (!scene.twin.empty())
-        one.difference = std::fabs(one.found - mean_of(scene.twin, expected.quantity)) / expected.scale;
+        one.difference = std::fabs(one.found - mean_of(scene.twin, expected.quantity)) / scale;
       one.holds = one.error <= expected.tolerance && one.difference <= plan.between_engines;
       all.push_back(one);
     }

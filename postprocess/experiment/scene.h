@@ -44,10 +44,11 @@ constexpr double soil_density = 2650.0; ///< of the balls [kg/m3]
 /// A known value of one of a plan's quantities, with which its mean over the seeds is compared.
 struct Expected {
   std::string quantity;
-  double value = 0.0;     ///< in the quantity's unit
-  double scale = 1.0;     ///< what an error is divided by, in that unit
-  double tolerance = 0.0; ///< of an error so divided
-  std::string source;     ///< where the value is from, in words
+  double value = 0.0;        ///< in the quantity's unit
+  double scale = 1.0;        ///< what an error is divided by, in that unit
+  double tolerance = 0.0;    ///< of an error so divided
+  std::string source;        ///< where the value is from, in words
+  std::string scale_of = {}; ///< the scene whose value is the scale; empty: none
 };
 
 struct Scene {

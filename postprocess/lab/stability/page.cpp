@@ -78,52 +78,19 @@ PageTable boundary_table(const std::vector<MapPoint> &map) {
   return table;
 }
 
-PageTable extremes_table(const std::string &group, const std::vector<ExtremeVerdict> &verdicts,
-                         std::size_t number) {
-  PageTable table(fmt::format("extremes_{}", number), group,
-                  "run | error (-) | allowed | agrees | remark | command");
-  table.verdict = "agrees";
-  for (const ExtremeVerdict &verdict : verdicts) {
-    if (verdict.row.group != group) continue;
-    table.add({verdict.row.name, fmt::format("{:.2g}", verdict.error),
-               fmt::format("{:g}", verdict.row.allowed), verdict.holds ? "yes" : "no", verdict.found,
-               command_of(verdict.row)},
-              verdict.holds ? RowState::agrees : RowState::differs);
-    const std::string note = fmt::format("Asked: {}.", verdict.row.expected);
-    if (std::find(table.notes.begin(), table.notes.end(), note) == table.notes.end())
-      table.notes.push_back(note);
-  }
-  return table;
-}
-
 } // namespace
 
-void write_stability_page(const std::filesystem::path &out, const std::vector<MapPoint> &map,
-                          const std::vector<ExtremeVerdict> &extremes) {
-  Page page(out, "Stability and extremes", Drawing::confined);
+void write_stability_page(const std::filesystem::path &out, const std::vector<MapPoint> &map) {
+  Page page(out, "Stability", Drawing::confined);
   page.answer("The longest time step at which the motion stays bounded, found by runs of balls of graded "
-              "mass that are confined between walls; and runs at the limits of the permitted parameters, "
-              "each compared with an independent solution. Second is the plugin's second-order scheme, stock "
-              "the engine's velocity Verlet scheme with the plugin's contact law.");
+              "mass that are confined between walls. Second is the plugin's second-order scheme, stock the "
+              "engine's velocity Verlet scheme with the plugin's contact law.");
   const std::vector<Acceptance> criteria = judge_stability_map(map);
   page.answer(criteria);
-  const auto held =
-      std::count_if(extremes.begin(), extremes.end(), [](const ExtremeVerdict &v) { return v.holds; });
-  page.answer(
-      fmt::format("At the limits of the parameters {} of {} runs behave as asked.", held, extremes.size()));
   page.section("The longest stable step");
   page.table(acceptance_table(criteria));
   page.figure(map_figure(map));
   page.table(boundary_table(map));
-  page.section("Runs at the limits of the parameters");
-  page.paragraph(
-      fmt::format("{} of {} runs behave as asked. The command repeats a run.", held, extremes.size()));
-  std::vector<std::string> groups;
-  for (const ExtremeVerdict &verdict : extremes)
-    if (std::find(groups.begin(), groups.end(), verdict.row.group) == groups.end())
-      groups.push_back(verdict.row.group);
-  for (const std::string &group : groups)
-    page.table(extremes_table(group, extremes, static_cast<std::size_t>(&group - groups.data()) + 1));
   page.write();
 }
 

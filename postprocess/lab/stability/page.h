@@ -1,7 +1,6 @@
 // The page of the stability study.
 #pragma once
 
-#include "lab/stability/extremes.h"
 #include "lab/stability/map.h"
 
 #include <filesystem>
@@ -10,7 +9,6 @@
 namespace drumlin::post {
 
 /// Writes the figure, the tables and index.html into the study's folder.
-void write_stability_page(const std::filesystem::path &out, const std::vector<MapPoint> &map,
-                          const std::vector<ExtremeVerdict> &extremes);
+void write_stability_page(const std::filesystem::path &out, const std::vector<MapPoint> &map);
 
 } // namespace drumlin::post

@@ -1,7 +1,6 @@
 #include "lab/studies.h"
 
 #include "experiment/study.h"
-#include "lab/stability/extremes.h"
 #include "lab/stability/map.h"
 #include "lab/stability/page.h"
 
@@ -15,17 +14,14 @@ namespace drumlin::post {
 
 void run_stability_study(const StudyOptions &options) {
   const std::vector<MapPoint> map = measure_stability_map(options);
-  const std::vector<ExtremeVerdict> extremes = measure_extremes(options);
-  write_stability_page(options.out, map, extremes);
+  write_stability_page(options.out, map);
   fmt::print("{}\n", (options.out / "index.html").string());
 
   std::vector<std::string> failing;
   for (const Acceptance &p : judge_stability_map(map))
     if (!p.holds) failing.push_back(p.criterion + ": " + p.measured);
-  for (const ExtremeVerdict &verdict : extremes)
-    if (!verdict.holds) failing.push_back(verdict.row.name);
   if (!failing.empty())
-    throw std::runtime_error(fmt::format("{} rows fail: {}", failing.size(), fmt::join(failing, "; ")));
+    throw std::runtime_error(fmt::format("{} criteria fail: {}", failing.size(), fmt::join(failing, "; ")));
 }
 
 } // namespace drumlin::post

@@ -120,6 +120,26 @@ TEST_F(PlanTest, MakesAsManyScenesAsALineOverHasValues) {
   EXPECT_EQ(last.expected[0].source, "by hand");
 }
 
+TEST_F(PlanTest, TakesTheValueOfAnotherSceneAsAScaleAndMeasuresWhatIsKnown) {
+  const std::string own = "title T\nquantity gap m last out.csv gap\nquantity height m last out.csv h\n"
+                          "quantity time s last out.csv t\ndeck in.own\n"
+                          "scene a\nover x 1 2\nexpect gap 5 0.1 by hand\n";
+  const Plan plan =
+      read(own + "scene b\nfrom a\nexpect gap 0 1.2 the other | a\nexpect height 1 1 by hand\n");
+  EXPECT_EQ(plan.scenes[3].expected[0].scale_of, "a: x 2");
+  EXPECT_EQ(plan.scenes[3].expected[0].source, "the other");
+  const auto names = [&plan](std::size_t scene) {
+    std::string all;
+    for (const post::Quantity &one : plan.measured_in(plan.scenes[scene]))
+      all += one.name + " ";
+    return all;
+  };
+  EXPECT_EQ(names(0), "gap time ");
+  EXPECT_EQ(names(3), "gap height time ");
+  expect_refused(own + "scene b\nset x 1\nexpect gap 0 1 the other | a\n",
+                 ": expect is 'a'; allowed: behind | a scene, which has the same line over as this one");
+}
+
 TEST_F(PlanTest, TakesKnownValuesAndPublishedPointsFromFiles) {
   const std::string own = "title T\nquantity gap m last out.csv gap\ndeck in.own\nexpect known.csv\n";
   const auto known = [this](const std::string &rows) {
@@ -495,6 +515,7 @@ TEST(PlansOfTheProject, AreCompleteAndHaveTheResultsBesideThem) {
   EXPECT_EQ(runs("box"), 3U * 6U + 10U * 3U);
   EXPECT_EQ(runs("suction"), 9U * 5U);
   EXPECT_EQ(runs("penetration"), 6U * 3U);
+  EXPECT_EQ(runs("extremes"), 235U);
   EXPECT_EQ(runs("benchmarks"), (post::has_lammps() ? 2U : 1U) * 143U);
   EXPECT_EQ(runs("drive"), 3U * 5U + 20U * 3U);
   for (const char *study : {"fidelity", "box", "friction", "stiffness", "damping", "scatter"}) {

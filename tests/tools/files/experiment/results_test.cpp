@@ -37,7 +37,7 @@ std::vector<double> values_of(const std::vector<const char *> &names, const fs::
   std::vector<post::Quantity> quantities;
   quantities.reserve(names.size());
   for (const char *name : names)
-    quantities.push_back(*post::bed_quantity(name));
+    quantities.push_back(*post::named_quantity(name));
   return post::measured(quantities, folder, width);
 }
 
@@ -207,8 +207,8 @@ TEST(Effect, OfSeveralPairsOfScenesCountsAllOfThem) {
 post::Plan made_up_plan() {
   post::Plan plan;
   plan.title = "Made up";
-  plan.quantities = {*post::bed_quantity("force"), *post::bed_quantity("settlement"),
-                     *post::bed_quantity("k")};
+  plan.quantities = {*post::named_quantity("force"), *post::named_quantity("settlement"),
+                     *post::named_quantity("k")};
   plan.axes = {{"load", "static load [kN/m]"}};
   plan.scenes = {{"base", "in.own"}, {"A", "in.own"}};
   plan.scenes[0].at["load"] = 10.0;
@@ -248,8 +248,8 @@ TEST(ShownQuantities, HaveUnitsThatFitAndChangesInThemWhereValuesHaveBothSigns) 
       post::column_quantity("gain", "-", "gain", "passes.csv", "density [-]"),
       post::column_quantity("force", "N/m", "mean", "passes.csv", "force [N]"),
       post::column_quantity("stiffness", "N/m", "mean", "passes.csv", "k [N/m]"),
-      *post::bed_quantity("settlement"),
-      *post::bed_quantity("force")};
+      *post::named_quantity("settlement"),
+      *post::named_quantity("force")};
   std::vector<Result> rows;
   for (int seed = 1; seed <= 2; ++seed) {
     const double aside = seed == 1 ? -1e-3 : 1e-3;
@@ -331,6 +331,14 @@ TEST(KnownValues, AreMetWithinTheirTolerancesAndInBothEngines) {
   EXPECT_EQ(holds(0.518, 0.519, 0.481), (Found{true, true, true})); // errors are relative to 2 m
   EXPECT_EQ(holds(0.521, 0.5195, 0.479), (Found{false, true, false}));
   EXPECT_EQ(holds(0.500, 0.503, none), (Found{true, false, false}));
+  post::Plan scaled = plan;
+  scaled.scenes[2].expected = {{"height", 0.0, 1.0, 1.2, "a", "a: x 1"}};
+  for (const double other : {1.19, 1.21}) // times that of the other scene
+    EXPECT_EQ(post::judged(scaled, Results({{"a: x 1", 1, "height", "m", 0.5, 1.0},
+                                            {"b", 1, "height", "m", 0.5 * other, 1.0}}))
+                  .back()
+                  .holds,
+              other < 1.2);
   EXPECT_EQ(post::judged(plan, Results({{"b", 1, "time", "s", 1.0, 1.0}})).size(), 1U); // it gave no height
 }
 

@@ -1,0 +1,16 @@
+// Errors of runs of the chain and of impacts beside their exact solutions.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace drumlin::post {
+
+/// A function of the folder of a run, which has its CSV files and parameters.csv.
+struct ExactQuantity {
+  const char *name, *label;
+  double (*value)(const std::filesystem::path &folder); ///< without unit
+};
+const std::vector<ExactQuantity> &exact_quantities();
+
+} // namespace drumlin::post
