@@ -48,7 +48,7 @@ struct Arguments {
 };
 
 /// The studies of the laboratory, which a build may not have.
-constexpr std::array lab_names = {"accuracy", "stability", "timing"};
+constexpr std::array lab_names = {"accuracy", "timing"};
 
 /// The studies of this build that are no plans, in the order of the help.
 std::vector<Study> other_studies() {
@@ -254,6 +254,7 @@ void add_study_command(CLI::App &app, Session &) {
       "  extremes   runs at the limits of the allowed parameters, against independent solutions\n"
       "  penetration a ball that sinks into a bed, against laws that others measured\n"
       "  scatter    how many beds give a result within 5 or 10 %; A against B\n"
+      "  stability  the longest stable time step over damping, for both integration schemes\n"
       "  stiffness  k and D that `drumlin identify` finds, over load, force and frequency\n"
       "  suction    what suction adds to the strength of a soil, in the biaxial test\n"
       "Others:\n";

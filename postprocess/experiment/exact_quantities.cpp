@@ -1,5 +1,7 @@
 #include "experiment/exact_quantities.h"
 
+#include "experiment/stable_step.h"
+
 #include "bed/dump_readers.h"
 #include "chain/analysis.h"
 #include "chain/exact_solution.h"
@@ -119,7 +121,8 @@ const std::vector<ExactQuantity> &exact_quantities() {
       {"event_time_error", "largest error of the time of an event over a cycle", &event_time_error},
       {"rebound_error", "error of the rebound over the speed of the impact", &rebound_error},
       {"largest_rebound_error", "largest error of the rebound over the speed of the impact",
-       &largest_rebound_error}};
+       &largest_rebound_error},
+      {"stable_step", "longest stable w0 dt", &stable_step}};
   return all;
 }
 

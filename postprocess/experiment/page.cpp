@@ -367,11 +367,12 @@ Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<c
   Reach across, up;
   for (const Scene *scene : scenes)
     across.add(scene->at.at(axis.name));
-  panel.x_range = across.range(0.1);
+  panel.log_x = panel.log_y = axis.is_log;
+  if (!axis.is_log) panel.x_range = across.range(0.1);
   for (std::size_t s = 0; s < series.size(); ++s) {
     const std::string name = fmt::format("{} {}", quantity.name, s + 1);
     // Beside each other, so that none hides another.
-    const double aside = 0.02 * across.length() * static_cast<double>(s);
+    const double aside = axis.is_log ? 0.0 : 0.02 * across.length() * static_cast<double>(s);
     for (const Scene *scene : scenes) {
       const std::vector<double> values = numbers(results.values(scene->name, quantity.name));
       if (scene->series != series[s] || values.empty()) continue;
@@ -401,7 +402,7 @@ Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<c
       }
   }
   add_published(panel, quantity, axis, published, table);
-  panel.y_range = up.range(0.05);
+  if (!axis.is_log) panel.y_range = up.range(0.05);
   return panel;
 }
 

@@ -207,6 +207,7 @@ private:
         {"note", {&R::take_note, false, true}},
         {"quantity", {&R::take_quantity, false, true}},
         {"axis", {&R::take_axis, false, true}},
+        {"log_axis", {&R::take_axis, false, true}},
         {"scene", {&R::take_scene, false, false}},
         {"from", {&R::take_from, true, false}},
         {"differs", {&R::take_differs, true, false}},
@@ -334,7 +335,7 @@ private:
     const std::string name = value_.substr(0, end);
     for (const Axis &axis : plan_.axes)
       if (axis.name == name) refuse("each axis once");
-    plan_.axes.push_back({name, trimmed(value_.substr(end))});
+    plan_.axes.push_back({name, trimmed(value_.substr(end)), keyword_ == "log_axis"});
   }
 
   /// The first one counts, which is that of Plan::with_balls().

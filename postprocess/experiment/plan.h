@@ -15,6 +15,7 @@ namespace drumlin::post {
 /// An axis over which the page draws the results of scenes that have a place on it.
 struct Axis {
   std::string name, label; ///< the label with unit
+  bool is_log = false;     ///< as the axis of the quantities then is, too
 };
 
 /// What differs, in words, and the scenes in which it does: each pair is a scene and the one that it is

@@ -15,12 +15,6 @@ namespace drumlin::post {
 ///   index.html   tables and figures
 void run_accuracy_study(const StudyOptions &options);
 
-/// `drumlin study stability`: the longest stable time step. Throws std::runtime_error with the criteria that
-/// fail, after everything is written.
-///   map.csv     longest stable time step at each damping ratio, for both integration schemes
-///   index.html  tables and a figure
-void run_stability_study(const StudyOptions &options);
-
 /// `drumlin study timing`: wall time of a time step on the chain and on beds, what each optional part adds to
 /// it, and throughput and memory from small beds to large ones, on one rank and on two. Also throws
 /// std::runtime_error if runs that compute the same do not end with the balls at the same positions.
@@ -35,9 +29,6 @@ inline constexpr std::array lab_studies = {
           "Error of the chain and of single impacts over step size and wall time, for both integration "
           "schemes and the engine's own contact law; tests what `drumlin advise` says. About half an hour.",
           &run_accuracy_study},
-    Study{"stability",
-          "The longest stable time step over damping, for both integration schemes. About five minutes.",
-          &run_stability_study},
     Study{"timing",
           "Time of a step on the chain and on settled beds: what each optional part adds, as ratios within "
           "interleaved rounds; balls times steps per second and memory from 2500 balls to a quarter of a "

@@ -417,7 +417,6 @@ TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
                                      {"meter/values.cpp", "identify/identification.h"},
                                      {"calibration/soil_tests.cpp", "report/soil/plate.h"},
                                      {"chain/analysis.cpp", "nowhere/run_folder.h"},
-                                     {"lab/accuracy/page.cpp", "lab/stability/map.h"},
                                      {"lab/accuracy/page.cpp", "lab/timing/results.h"},
                                      {"report/chain/page.cpp", "report/bed/page.h"},
                                      {"commands/demo.cpp", "lab/studies.h"}})

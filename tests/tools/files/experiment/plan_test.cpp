@@ -516,6 +516,7 @@ TEST(PlansOfTheProject, AreCompleteAndHaveTheResultsBesideThem) {
   EXPECT_EQ(runs("suction"), 9U * 5U);
   EXPECT_EQ(runs("penetration"), 6U * 3U);
   EXPECT_EQ(runs("extremes"), 235U);
+  EXPECT_EQ(runs("stability"), 6U * 30U + 2U);
   EXPECT_EQ(runs("benchmarks"), (post::has_lammps() ? 2U : 1U) * 143U);
   EXPECT_EQ(runs("drive"), 3U * 5U + 20U * 3U);
   for (const char *study : {"fidelity", "box", "friction", "stiffness", "damping", "scatter"}) {
