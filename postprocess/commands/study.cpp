@@ -9,7 +9,7 @@
 #ifdef DRUMLIN_LAB
 #include "lab/studies.h"
 #endif
-#include "map/meter/study.h"
+#include "map/meter_study.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/usage_error.h"

@@ -98,21 +98,29 @@ double rebound_error(const fs::path &folder) {
   return std::fabs(history.v_drum.back() + exact.rate) / p.speed;
 }
 
-/// Of a run of study/in.impacts: over the phases of the make within a step.
-double largest_rebound_error(const fs::path &folder) {
-  const RunParameters given(folder);
-  const double exact = closed_form_restitution(given.text("transition"), given.number("D"));
-  const std::vector<TextDump> dumps = read_text_dumps(folder / "rebound.txt");
-  if (dumps.empty()) csv_fault(folder / "rebound.txt", 0, "vz", "is missing");
-  const std::size_t velocity = dumps.back().column("vz");
-  double largest = 0.0;
-  for (const std::vector<double> &row : dumps.back().rows)
-    largest = std::max(largest, std::fabs(row[velocity] / given.number("speed") - exact));
-  const bool all = static_cast<double>(dumps.back().rows.size()) == given.number("phases");
-  return all ? largest : std::numeric_limits<double>::quiet_NaN();
-}
+double largest_rebound_error(const fs::path &folder) { return rebound_errors(folder).worst; }
 
 } // namespace
+
+ReboundErrors rebound_errors(const fs::path &folder) {
+  const RunParameters given(folder);
+  const double exact = closed_form_restitution(given.text("transition"), given.number("D")),
+               phases = given.number("phases");
+  const std::vector<TextDump> dumps = read_text_dumps(folder / "rebound.txt");
+  if (dumps.empty() || static_cast<double>(dumps.back().rows.size()) != phases) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    return {none, none};
+  }
+  const std::size_t velocity = dumps.back().column("vz");
+  ReboundErrors errors{0.0, 0.0};
+  for (const std::vector<double> &row : dumps.back().rows) {
+    const double error = std::fabs(row[velocity] / given.number("speed") - exact);
+    errors.worst = std::max(errors.worst, error);
+    errors.rms += error * error / phases;
+  }
+  errors.rms = std::sqrt(errors.rms);
+  return errors;
+}
 
 const std::vector<ExactQuantity> &exact_quantities() {
   static const std::vector<ExactQuantity> all = {

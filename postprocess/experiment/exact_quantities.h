@@ -13,4 +13,11 @@ struct ExactQuantity {
 };
 const std::vector<ExactQuantity> &exact_quantities();
 
+/// Errors of the rebound of a run of study/in.impacts over the speed of the impact, over the phases of the
+/// make within a step. NaN if it has not as many rebounds as phases.
+struct ReboundErrors {
+  double worst, rms;
+};
+ReboundErrors rebound_errors(const std::filesystem::path &folder);
+
 } // namespace drumlin::post

@@ -41,7 +41,9 @@ struct Watched {
     for (const std::vector<double> *window : {&half_time, &end})
       for (const double x : *window)
         if (!(std::fabs(x) < growth_limit * first_push)) return true;
-    const double fast = fast_part(end);
+    // In both halves of the window: rounding can kick a heavily damped ball once.
+    const auto middle = end.begin() + static_cast<std::ptrdiff_t>(end.size() / 2);
+    const double fast = std::min(fast_part({end.begin(), middle}), fast_part({middle, end.end()}));
     return damped && fast > fast_noise && fast > fast_growth * fast_part(half_time);
   }
 };

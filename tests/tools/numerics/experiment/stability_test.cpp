@@ -104,6 +104,7 @@ TEST(StableStep, IsThatOfTheLastBallBeforeTheFirstThatGrows) {
   EXPECT_DOUBLE_EQ(found(alternates(1.0 + 1e-6), 0.5), std::sqrt(1.0 * 2.0));
   EXPECT_DOUBLE_EQ(found(alternates(1.0 + 1e-6), 0.0), std::sqrt(2.0 * 4.0));
   EXPECT_DOUBLE_EQ(found(alternates(1.0), 0.5), std::sqrt(2.0 * 4.0));
+  EXPECT_DOUBLE_EQ(found([](int step) { return step < 1025 ? 1e-7 : 1.1e-7; }, 0.5), std::sqrt(2.0 * 4.0));
 }
 
 } // namespace
