@@ -202,7 +202,7 @@ KnownValues known_values(const Plan &plan, const std::vector<Judged> &rows) {
   const auto add = [&](PageTable &table, std::vector<std::string> cells, const Judged &row, double error,
                        double difference, bool holds) {
     cells.push_back(fmt::format("{:.1e}", error));
-    cells.push_back(fmt::format("{:.0e}", row.expected->tolerance));
+    cells.push_back(fmt::format("{:.2g}", row.expected->tolerance));
     if (twins) cells.push_back(fmt::format("{:.1e}", difference));
     table.add(cells, holds ? RowState::agrees : RowState::differs);
   };

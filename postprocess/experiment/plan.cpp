@@ -834,6 +834,14 @@ Plan Plan::with_balls(int balls) const {
 Plan Plan::quick() const {
   Plan plan = can_be_scaled() ? with_balls(std::min(quick_balls, scenes.front().bed->packing.balls)) : *this;
   if (plan.scenes.size() > quick_scenes) plan.scenes.resize(quick_scenes);
+  plan.quantities.clear(); // without those that only scenes left out have
+  for (const Quantity &quantity : quantities)
+    if (std::any_of(plan.scenes.begin(), plan.scenes.end(), [&](const Scene &scene) {
+          const std::vector<Quantity> all = measured_in(scene);
+          return std::any_of(all.begin(), all.end(),
+                             [&quantity](const Quantity &one) { return one.name == quantity.name; });
+        }))
+      plan.quantities.push_back(quantity);
   for (Scene &scene : plan.scenes) {
     scene.seeds = std::min(scene.seeds, quick_seeds);
     for (Setting &setting : scene.settings)

@@ -123,10 +123,10 @@ TEST_F(PlanTest, MakesAsManyScenesAsALineOverHasValues) {
 TEST_F(PlanTest, TakesTheValueOfAnotherSceneAsAScaleAndMeasuresWhatIsKnown) {
   const std::string own = "title T\nquantity gap m last out.csv gap\nquantity height m last out.csv h\n"
                           "quantity time s last out.csv t\ndeck in.own\n"
-                          "scene a\nover x 1 2\nexpect gap 5 0.1 by hand\n";
+                          "scene a\nover x 1 2 3\nexpect gap 5 0.1 by hand\n";
   const Plan plan =
       read(own + "scene b\nfrom a\nexpect gap 0 1.2 the other | a\nexpect height 1 1 by hand\n");
-  EXPECT_EQ(plan.scenes[3].expected[0].scale_of, "a: x 2");
+  EXPECT_EQ(plan.scenes[3].expected[0].scale_of, "a: x 1");
   EXPECT_EQ(plan.scenes[3].expected[0].source, "the other");
   const auto names = [&plan](std::size_t scene) {
     std::string all;
@@ -136,6 +136,7 @@ TEST_F(PlanTest, TakesTheValueOfAnotherSceneAsAScaleAndMeasuresWhatIsKnown) {
   };
   EXPECT_EQ(names(0), "gap time ");
   EXPECT_EQ(names(3), "gap height time ");
+  EXPECT_EQ(plan.quick().quantities.size(), 2U); // its three scenes have no height
   expect_refused(own + "scene b\nset x 1\nexpect gap 0 1 the other | a\n",
                  ": expect is 'a'; allowed: behind | a scene, which has the same line over as this one");
 }
