@@ -144,18 +144,6 @@ PageTable effect_table(const Plan &plan, const std::vector<Effect> &effects) {
   return table;
 }
 
-/// The first known value of a scene's quantity; nullptr if there is none.
-const Expected *expected_of(const Scene &scene, const Quantity &quantity) {
-  for (const Expected &one : scene.expected)
-    if (one.quantity == quantity.name) return &one;
-  return nullptr;
-}
-
-bool has_known_value(const Plan &plan, const Quantity &quantity) {
-  return std::any_of(plan.scenes.begin(), plan.scenes.end(),
-                     [&quantity](const Scene &scene) { return expected_of(scene, quantity) != nullptr; });
-}
-
 /// Of the quantities without known values: the others have tables of their own.
 PageTable mean_table(const std::vector<Quantity> &quantities, const Results &results) {
   PageTable table;
@@ -393,7 +381,7 @@ Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<c
     }
     panel.add(curve(figure_name(axis), name, "$2", "3", series_styles[s]), words);
     for (const Scene *scene : scenes)
-      if (const Expected *known = expected_of(*scene, quantity);
+      if (const Expected *known = known_value(*scene, quantity.name);
           known != nullptr && scene->series == series[s] && scene->twin.empty()) {
         table.row(name + " known", {scene->at.at(axis.name) + aside, quantity.scale * known->value});
         up.add(quantity.scale * known->value);
@@ -417,9 +405,9 @@ PageFigure axis_figure(const Plan &plan, const Axis &axis, const Results &result
   figure.figure = {figure_name(axis), "Over " + axis.label, {}, 3};
   CurveTable table("place,value,low,high");
   for (const Quantity &quantity : plan.quantities)
-    if (!has_known_value(plan, quantity) ||
-        std::any_of(scenes.begin(), scenes.end(),
-                    [&](const Scene *scene) { return expected_of(*scene, quantity) != nullptr; }))
+    if (!plan.knows(quantity.name) || std::any_of(scenes.begin(), scenes.end(), [&](const Scene *scene) {
+          return known_value(*scene, quantity.name) != nullptr;
+        }))
       figure.figure.panels.push_back(axis_panel(quantity, axis, scenes, results, plan.published, table));
   figure.csv = table.text();
   return figure;
@@ -498,7 +486,7 @@ void write_experiment_page(const std::filesystem::path &out, Plan plan, const Re
   }
   std::vector<Quantity> others;
   for (const Quantity &quantity : plan.quantities)
-    if (!has_known_value(plan, quantity)) others.push_back(quantity);
+    if (!plan.knows(quantity.name)) others.push_back(quantity);
   if (!others.empty()) {
     page.section("Means");
     page.table(mean_table(others, results));

@@ -787,16 +787,15 @@ private:
 
 } // namespace
 
+bool Plan::knows(const std::string &quantity) const {
+  return std::any_of(scenes.begin(), scenes.end(),
+                     [&quantity](const Scene &scene) { return known_value(scene, quantity) != nullptr; });
+}
+
 std::vector<Quantity> Plan::measured_in(const Scene &scene) const {
-  const auto knows = [](const Scene &one, const Quantity &quantity) {
-    return std::any_of(one.expected.begin(), one.expected.end(),
-                       [&quantity](const Expected &known) { return known.quantity == quantity.name; });
-  };
   std::vector<Quantity> measured;
   for (const Quantity &quantity : quantities)
-    if (knows(scene, quantity) ||
-        std::none_of(scenes.begin(), scenes.end(), [&](const Scene &one) { return knows(one, quantity); }))
-      measured.push_back(quantity);
+    if (known_value(scene, quantity.name) != nullptr || !knows(quantity.name)) measured.push_back(quantity);
   return measured;
 }
 
@@ -834,14 +833,12 @@ Plan Plan::with_balls(int balls) const {
 Plan Plan::quick() const {
   Plan plan = can_be_scaled() ? with_balls(std::min(quick_balls, scenes.front().bed->packing.balls)) : *this;
   if (plan.scenes.size() > quick_scenes) plan.scenes.resize(quick_scenes);
-  plan.quantities.clear(); // without those that only scenes left out have
-  for (const Quantity &quantity : quantities)
-    if (std::any_of(plan.scenes.begin(), plan.scenes.end(), [&](const Scene &scene) {
-          const std::vector<Quantity> all = measured_in(scene);
-          return std::any_of(all.begin(), all.end(),
-                             [&quantity](const Quantity &one) { return one.name == quantity.name; });
-        }))
-      plan.quantities.push_back(quantity);
+  // Without those that only scenes left out have.
+  plan.quantities.erase(std::remove_if(plan.quantities.begin(), plan.quantities.end(),
+                                       [&](const Quantity &quantity) {
+                                         return knows(quantity.name) && !plan.knows(quantity.name);
+                                       }),
+                        plan.quantities.end());
   for (Scene &scene : plan.scenes) {
     scene.seeds = std::min(scene.seeds, quick_seeds);
     for (Setting &setting : scene.settings)

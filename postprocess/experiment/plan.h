@@ -55,6 +55,8 @@ struct Plan {
 
   /// The text of this plan for a file in another folder.
   std::string copy() const;
+  /// Whether one of its scenes has a known value of a quantity.
+  bool knows(const std::string &quantity) const;
   /// The quantities that are measured in a scene: those for which it has a known value, and those for which
   /// no scene has one.
   std::vector<Quantity> measured_in(const Scene &scene) const;

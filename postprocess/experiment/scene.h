@@ -91,6 +91,9 @@ Scene scaled(Scene scene, int balls, int of);
 /// All that a scene's soil is made of but the seed: scenes with the same text share their settled soil.
 std::string soil_text(const Scene &scene);
 
+/// The first known value of a scene's quantity; nullptr if there is none.
+const Expected *known_value(const Scene &scene, const std::string &quantity);
+
 /// Names and values one after the other.
 std::string words_of(const Variables &variables);
 
