@@ -59,7 +59,7 @@ Outcome run_instances(const Scratch &folder, const std::string &how) {
   const fs::path library = fs::path(LAMMPS_PROGRAM).parent_path() / "liblammps.so.0";
   return run_program({TWO_INSTANCES_PROGRAM, library.string(), DRUMLIN_LAMMPS_PLUGIN,
                       std::string(DRUMLIN_SOURCE_DIR) + "/tests/support/host.lammps", how},
-                     mpi_environment(folder.path()), folder.path(), 60.0);
+                     mpi_environment(folder.path()), folder.path(), 600.0);
 }
 
 TEST(TwoLammpsInstances, EachGivesWhatItGivesAlone) {

@@ -34,7 +34,7 @@ Outcome run_until_interrupted(const std::string &deck, const std::vector<std::st
                              command.environment.end());
   program.folder = folder.path();
   program.output = folder / post::program_output_file;
-  program.limit = 60.0;
+  program.limit = 600.0;
   program.stop_signal = SIGINT;
   program.stop_when = after_processor_time(1.0);
   return run_program(program);
