@@ -156,7 +156,7 @@ std::map<std::string, double> SoilTests::roller(const Point &point) const {
   const std::unique_ptr<DeckRun> run = run_roller(point);
   std::vector<Quantity> quantities;
   for (const SoilQuantity &quantity : soil_quantities)
-    if (quantity.test == SoilTest::roller) quantities.push_back(*bed_quantity(quantity.name));
+    if (quantity.test == SoilTest::roller) quantities.push_back(*named_quantity(quantity.name));
   const std::vector<double> values = measured(quantities, run->file(""), 1.0);
   std::map<std::string, double> found;
   for (std::size_t i = 0; i < quantities.size(); ++i) {

@@ -11,7 +11,7 @@
 #include "engine/engine_run.h"
 #include "engine/places.h"
 #include "experiment/study.h"
-#include "map/meter/study.h"
+#include "map/meter_study.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/process.h"

@@ -4,7 +4,7 @@
 #include "commands/text_options.h"
 #include "map/ends_map.h"
 #include "map/figures.h"
-#include "map/meter/course.h"
+#include "map/course.h"
 #include "map/regime_map.h"
 #include "pages/drawing.h"
 #include "pages/html.h"

@@ -9,7 +9,7 @@
 #ifdef DRUMLIN_LAB
 #include "lab/studies.h"
 #endif
-#include "map/meter/study.h"
+#include "map/meter_study.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/usage_error.h"
@@ -48,7 +48,7 @@ struct Arguments {
 };
 
 /// The studies of the laboratory, which a build may not have.
-constexpr std::array lab_names = {"accuracy", "benchmarks", "stability", "timing"};
+constexpr std::array lab_names = {"accuracy", "timing"};
 
 /// The studies of this build that are no plans, in the order of the help.
 std::vector<Study> other_studies() {
@@ -176,6 +176,8 @@ void run_plan(const Arguments &arguments) {
   for (const fs::path &deck : decks_of(plan))
     for (const fs::path &included : deck_files(deck))
       read.push_back({"deck", included});
+  for (const fs::path &values : plan.files)
+    read.push_back({"a file of the plan", values.is_absolute() ? values : input_file(values.string())});
   keep_apart(read, {{"--out", options.out, true}});
   if (balls > 0 && !plan.can_be_scaled()) throw UsageError(refusal("--balls", balls, what_can_be_scaled));
   if (balls > 0) plan = plan.with_balls(balls);
@@ -239,7 +241,8 @@ void add_study_command(CLI::App &app, Session &) {
   command->add_flag("--fresh", arguments->fresh, "forget the points of an earlier call");
   command->add_flag("--quick", arguments->quick, "few points: to see that it works");
   std::string footer =
-      "Plans of beds and samples, in inputs/study/NAME/plan, with 95 % confidence intervals over seeds:\n"
+      "Plans, in inputs/study/NAME/plan; those of beds and samples have 95 % confidence intervals over "
+      "seeds:\n"
       "  drive      what passes of a roller leave in a lift, and what decides it\n"
       "  base       what yield, suction and density do for a roller on a base course\n"
       "  box        what width, depth, walls and absorbing sides of the box change\n"
@@ -248,8 +251,11 @@ void add_study_command(CLI::App &app, Session &) {
       "  fidelity   effect and time of each part of a bed's model; `drumlin advise --bed` answers "
       "from it\n"
       "  friction   the friction models coulomb and history\n"
+      "  benchmarks published tests of one or two spheres, in both engines against closed forms\n"
+      "  extremes   runs at the limits of the allowed parameters, against independent solutions\n"
       "  penetration a ball that sinks into a bed, against laws that others measured\n"
       "  scatter    how many beds give a result within 5 or 10 %; A against B\n"
+      "  stability  the longest stable time step over damping, for both integration schemes\n"
       "  stiffness  k and D that `drumlin identify` finds, over load, force and frequency\n"
       "  suction    what suction adds to the strength of a soil, in the biaxial test\n"
       "Others:\n";

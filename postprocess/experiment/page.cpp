@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace drumlin::post {
@@ -143,18 +144,19 @@ PageTable effect_table(const Plan &plan, const std::vector<Effect> &effects) {
   return table;
 }
 
-PageTable mean_table(const Plan &plan, const Results &results) {
+/// Of the quantities without known values: the others have tables of their own.
+PageTable mean_table(const std::vector<Quantity> &quantities, const Results &results) {
   PageTable table;
   table.name = "means";
   table.title = "Means over the seeds";
   table.header = {"scene", "seeds"};
-  for (const Quantity &quantity : plan.quantities)
+  for (const Quantity &quantity : quantities)
     table.header.push_back(with_unit(quantity.label, quantity.shown_unit));
   table.header.emplace_back("processor time [s]");
   for (const std::string &scene : results.scenes()) {
     std::size_t seeds = 0;
     std::vector<std::string> cells;
-    for (const Quantity &quantity : plan.quantities) {
+    for (const Quantity &quantity : quantities) {
       const std::vector<double> values = numbers(results.values(scene, quantity.name));
       seeds = std::max(seeds, values.size());
       cells.push_back(values.empty() ? no_value : interval_text(mean_interval(values), quantity.scale));
@@ -166,6 +168,72 @@ PageTable mean_table(const Plan &plan, const Results &results) {
   }
   table.notes = {"After the ±: half of the 95 % confidence interval of the mean; (one): of a single seed."};
   return table;
+}
+
+constexpr const char *between_engines = "LAMMPS - LIGGGHTS";
+
+/// The largest errors of each family of scenes, and the page's acceptance criteria.
+struct KnownValues {
+  PageTable summary, all;
+  std::vector<Acceptance> criteria;
+};
+
+KnownValues known_values(const Plan &plan, const std::vector<Judged> &rows) {
+  const bool twins = plan.between_engines > 0.0;
+  const std::string last = twins ? fmt::format(" | {}", between_engines) : "";
+  KnownValues known{{"summary", "Largest error of each quantity",
+                     "scene | quantity | compared with | runs | largest error | tolerance" + last, 3},
+                    {"values", "All known values",
+                     "scene | quantity | compared with | known value | found | error | tolerance" + last, 3},
+                    {}};
+  known.summary.criterion = known.all.criterion = "values are within the tolerance";
+  const auto add = [&](PageTable &table, std::vector<std::string> cells, const Judged &row, double error,
+                       double difference, bool holds) {
+    cells.push_back(fmt::format("{:.1e}", error));
+    cells.push_back(fmt::format("{:.2g}", row.expected->tolerance));
+    if (twins) cells.push_back(fmt::format("{:.1e}", difference));
+    table.add(cells, holds ? RowState::agrees : RowState::differs);
+  };
+  for (auto first = rows.begin(); first != rows.end();) {
+    const std::string &family = first->scene->family;
+    const auto end =
+        std::find_if(first, rows.end(), [&](const Judged &row) { return row.scene->family != family; });
+    double share = 0.0; // of the tolerance
+    bool all_hold = true;
+    std::set<std::pair<std::string, std::string>> seen;
+    for (auto row = first; row != end; ++row) {
+      const Expected &expected = *row->expected;
+      const Quantity &quantity =
+          *std::find_if(plan.quantities.begin(), plan.quantities.end(),
+                        [&](const Quantity &one) { return one.name == expected.quantity; });
+      const std::string label = with_unit(quantity.label, quantity.shown_unit);
+      share = std::max(share, row->error / expected.tolerance);
+      all_hold = all_hold && row->holds;
+      add(known.all,
+          {row->scene->name, label, expected.source, fmt::format("{:.7g}", quantity.scale * expected.value),
+           fmt::format("{:.7g}", quantity.scale * row->found)},
+          *row, row->error, row->difference, row->holds);
+      if (!seen.insert({expected.quantity, expected.source}).second) continue;
+      int runs = 0;
+      double error = 0.0, difference = 0.0;
+      bool holds = true;
+      for (auto other = row; other != end; ++other) {
+        if (other->expected->quantity != expected.quantity || other->expected->source != expected.source)
+          continue;
+        ++runs;
+        error = std::max(error, other->error);
+        difference = std::max(difference, other->difference);
+        holds = holds && other->holds;
+      }
+      add(known.summary, {family, label, expected.source, std::to_string(runs)}, *row, error, difference,
+          holds);
+    }
+    known.criteria.push_back({family + ": every known value within its tolerance",
+                              fmt::format("error at most {:.2f} of it", share), all_hold});
+    first = end;
+  }
+  known.all.notes = {"Errors are the difference over a scale of the quantity, where it has one."};
+  return known;
 }
 
 /// The lowest and the highest of what a panel shows.
@@ -256,19 +324,43 @@ std::vector<std::string> series_of(const std::vector<const Scene *> &scenes) {
 /// Stem of the files of the figure over an axis.
 std::string figure_name(const Axis &axis) { return "over_" + axis.name; }
 
+constexpr std::array published_styles = {CurveStyle::measured_a, CurveStyle::measured_b};
+constexpr std::array known_styles = {CurveStyle::condition_b, CurveStyle::condition_a, CurveStyle::limit,
+                                     CurveStyle::plain};
+
+/// Whether a panel has a curve of that name in its legend.
+bool shows(const Panel &panel, const std::string &name) {
+  return std::any_of(panel.curves.begin(), panel.curves.end(),
+                     [&name](const Curve &one) { return one.title == name; });
+}
+
+void add_published(Panel &panel, const Quantity &quantity, const Axis &axis,
+                   const std::vector<PublishedPoint> &points, CurveTable &table) {
+  std::size_t sources = 0;
+  for (const PublishedPoint &point : points) {
+    if (point.axis != axis.name || point.quantity != quantity.name) continue;
+    const std::string name = fmt::format("{} {} {}", quantity.name, point.series, point.source);
+    const std::string words = fmt::format("published, {}, {}", point.series, point.source);
+    table.row(name, {point.at, quantity.scale * point.value});
+    if (!shows(panel, words) && sources < published_styles.size())
+      panel.add(curve(figure_name(axis), name, "$2", "3", published_styles[sources++]), words);
+  }
+}
+
 /// A quantity over an axis: single seeds of all series, and means of the first one.
 Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<const Scene *> &scenes,
-                 const Results &results, CurveTable &table) {
+                 const Results &results, const std::vector<PublishedPoint> &published, CurveTable &table) {
   const std::vector<std::string> series = series_of(scenes);
   Panel panel{"", as_written(axis.label), as_written(with_unit(quantity.label, quantity.shown_unit)), {}};
   Reach across, up;
   for (const Scene *scene : scenes)
     across.add(scene->at.at(axis.name));
-  panel.x_range = across.range(0.1);
+  panel.log_x = panel.log_y = axis.is_log;
+  if (!axis.is_log) panel.x_range = across.range(0.1);
   for (std::size_t s = 0; s < series.size(); ++s) {
     const std::string name = fmt::format("{} {}", quantity.name, s + 1);
     // Beside each other, so that none hides another.
-    const double aside = 0.02 * across.length() * static_cast<double>(s);
+    const double aside = axis.is_log ? 0.0 : 0.02 * across.length() * static_cast<double>(s);
     for (const Scene *scene : scenes) {
       const std::vector<double> values = numbers(results.values(scene->name, quantity.name));
       if (scene->series != series[s] || values.empty()) continue;
@@ -288,8 +380,17 @@ Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<c
                 series[s].empty() ? "mean" : "mean, " + words);
     }
     panel.add(curve(figure_name(axis), name, "$2", "3", series_styles[s]), words);
+    for (const Scene *scene : scenes)
+      if (const Expected *known = known_value(*scene, quantity.name);
+          known != nullptr && scene->series == series[s] && scene->twin.empty()) {
+        table.row(name + " known", {scene->at.at(axis.name) + aside, quantity.scale * known->value});
+        up.add(quantity.scale * known->value);
+        if (!shows(panel, words + ", known"))
+          panel.add(curve(figure_name(axis), name + " known", "$2", "3", known_styles[s]), words + ", known");
+      }
   }
-  panel.y_range = up.range(0.05);
+  add_published(panel, quantity, axis, published, table);
+  if (!axis.is_log) panel.y_range = up.range(0.05);
   return panel;
 }
 
@@ -304,7 +405,10 @@ PageFigure axis_figure(const Plan &plan, const Axis &axis, const Results &result
   figure.figure = {figure_name(axis), "Over " + axis.label, {}, 3};
   CurveTable table("place,value,low,high");
   for (const Quantity &quantity : plan.quantities)
-    figure.figure.panels.push_back(axis_panel(quantity, axis, scenes, results, table));
+    if (!plan.knows(quantity.name) || std::any_of(scenes.begin(), scenes.end(), [&](const Scene *scene) {
+          return known_value(*scene, quantity.name) != nullptr;
+        }))
+      figure.figure.panels.push_back(axis_panel(quantity, axis, scenes, results, plan.published, table));
   figure.csv = table.text();
   return figure;
 }
@@ -354,7 +458,10 @@ void write_experiment_page(const std::filesystem::path &out, Plan plan, const Re
   Page page(out, plan.title, plan.scenes.front().bed ? std::optional(Drawing::bed) : std::nullopt);
   for (const std::string &sentence : plan.about)
     page.answer(sentence);
-  page.answer(effects_words(effects, plan.quantities));
+  const std::vector<Judged> rows = judged(plan, results);
+  const KnownValues known = known_values(plan, rows);
+  page.answer(known.criteria);
+  if (rows.empty() || !effects.empty()) page.answer(effects_words(effects, plan.quantities));
   page.answer(cost_words(plan, results));
   for (const std::string &failure : failures)
     page.answer("Missing: " + failure);
@@ -372,11 +479,25 @@ void write_experiment_page(const std::filesystem::path &out, Plan plan, const Re
     page.section("Over " + axis.label);
     page.figure(axis_figure(plan, axis, results, ++figures));
   }
-  page.section("Means");
-  page.table(mean_table(plan, results));
+  if (!rows.empty()) {
+    page.section("Known values");
+    page.table(acceptance_table(known.criteria));
+    page.table(known.summary);
+  }
+  std::vector<Quantity> others;
+  for (const Quantity &quantity : plan.quantities)
+    if (!plan.knows(quantity.name)) others.push_back(quantity);
+  if (!others.empty()) {
+    page.section("Means");
+    page.table(mean_table(others, results));
+  }
   if (!plan.notes.empty()) page.section("How to read it");
   for (const std::string &note : plan.notes)
     page.paragraph(note);
+  if (!rows.empty()) {
+    page.section("All known values");
+    page.table(known.all);
+  }
   page.write();
 }
 

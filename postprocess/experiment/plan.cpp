@@ -1,7 +1,8 @@
 #include "experiment/plan.h"
 
 #include "engine/deck_run.h"
-#include "support/csv.h"
+#include "engine/engine_command.h"
+#include "support/csv_schema.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/range.h"
@@ -63,11 +64,11 @@ std::vector<std::string> words_of(const std::string &text) {
   return words;
 }
 
-/// The parts of a text between its separators `|`.
-std::vector<std::string> parts_of(const std::string &text) {
+/// The parts of a text between its separators.
+std::vector<std::string> parts_of(const std::string &text, char separator) {
   std::vector<std::string> parts;
   std::istringstream in(text);
-  for (std::string part; std::getline(in, part, '|');)
+  for (std::string part; std::getline(in, part, separator);)
     parts.push_back(trimmed(part));
   return parts;
 }
@@ -118,6 +119,31 @@ bool is_name(const std::string &text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), is_letter);
 }
 
+/// A row of a file of known values.
+struct ExpectedRow {
+  std::string scene; ///< its name in LIGGGHTS, if it runs in both engines
+  Expected expected;
+};
+
+const CsvSchema<ExpectedRow> &expected_rows() {
+  static const CsvSchema<ExpectedRow> schema(
+      {csv_column("scene", &ExpectedRow::scene),
+       csv_column("quantity", &ExpectedRow::expected, &Expected::quantity),
+       csv_column("value", &ExpectedRow::expected, &Expected::value),
+       csv_column("scale", &ExpectedRow::expected, &Expected::scale),
+       csv_column("tolerance", &ExpectedRow::expected, &Expected::tolerance),
+       csv_column("source", &ExpectedRow::expected, &Expected::source)});
+  return schema;
+}
+
+/// What a line `over` says: the variables, and for each scene that it makes a value of each of them.
+struct Sweep {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> values;
+  std::map<std::string, std::pair<std::size_t, double>>
+      at; ///< axis -> a variable and the factor to the place
+};
+
 class PlanReader {
 public:
   explicit PlanReader(fs::path file) : file_(std::move(file)) {}
@@ -146,6 +172,10 @@ public:
     require(!plan_.title.empty(), "title", "a line of it");
     require(!plan_.quantities.empty(), "quantity", "a line for each");
     require(!plan_.scenes.empty(), "scene", "a line for each, with its settings below");
+    make_sweeps();
+    for (const fs::path &file : expected_files_)
+      take_expected(file);
+    make_twins();
     for (const Explicit &one : compared_)
       add_comparison(one);
     if (scaled_to_ == 0) return std::move(plan_);
@@ -177,6 +207,7 @@ private:
         {"note", {&R::take_note, false, true}},
         {"quantity", {&R::take_quantity, false, true}},
         {"axis", {&R::take_axis, false, true}},
+        {"log_axis", {&R::take_axis, false, true}},
         {"scene", {&R::take_scene, false, false}},
         {"from", {&R::take_from, true, false}},
         {"differs", {&R::take_differs, true, false}},
@@ -205,6 +236,10 @@ private:
         {"ratio", {&R::take_ratio, true, false}},
         {"at", {&R::take_at, false, false}},
         {"series", {&R::take_series, true, false}},
+        {"over", {&R::take_over, true, false}},
+        {"expect", {&R::take_expect, false, false}},
+        {"published", {&R::take_published, true, true}},
+        {"also_in_lammps", {&R::take_also_in_lammps, true, true}},
         {"scaled_to", {&R::take_scaled_to, false, true}}};
     return all;
   }
@@ -262,10 +297,10 @@ private:
     constexpr std::size_t own = 5;
     Quantity quantity;
     if (words.size() == 1) {
-      const Quantity *known = bed_quantity(words[0]);
+      const Quantity *known = named_quantity(words[0]);
       if (known == nullptr) {
         std::vector<std::string> names;
-        for (const Quantity &one : bed_quantities())
+        for (const Quantity &one : named_quantities())
           names.push_back(one.name);
         refuse(fmt::format("{}, or NAME UNIT WAY FILE COLUMN", fmt::join(names, ", ")));
       }
@@ -300,7 +335,7 @@ private:
     const std::string name = value_.substr(0, end);
     for (const Axis &axis : plan_.axes)
       if (axis.name == name) refuse("each axis once");
-    plan_.axes.push_back({name, trimmed(value_.substr(end))});
+    plan_.axes.push_back({name, trimmed(value_.substr(end)), keyword_ == "log_axis"});
   }
 
   /// The first one counts, which is that of Plan::with_balls().
@@ -320,7 +355,8 @@ private:
     for (const Scene &one : plan_.scenes)
       if (one.name == value_) refuse("each name once");
     plan_.scenes.push_back(common_);
-    plan_.scenes.back().name = value_;
+    plan_.scenes.back().name = plan_.scenes.back().family = value_;
+    sweeps_.emplace_back();
     in_scene_ = true;
     scene_line_ = line_;
     paired_of_scene_ = paired_;
@@ -334,7 +370,8 @@ private:
     if (base == plan_.scenes.end() - 1) refuse("the name of a scene above");
     const std::string name = plan_.scenes.back().name;
     plan_.scenes.back() = *base;
-    plan_.scenes.back().name = name;
+    plan_.scenes.back().name = plan_.scenes.back().family = name;
+    sweeps_.back() = sweeps_[static_cast<std::size_t>(base - plan_.scenes.begin())];
     base_ = value_;
   }
 
@@ -350,23 +387,23 @@ private:
   }
 
   void take_compare() {
-    const std::vector<std::string> parts = parts_of(value_);
+    const std::vector<std::string> parts = parts_of(value_, '|');
     if (parts.size() != 3 || parts[0].empty() || parts[1].empty() || parts[2].empty())
       refuse("SCENE | SCENE | what differs, in words");
     compared_.push_back({line_, parts[0], parts[1], parts[2]});
   }
 
-  void take_deck() {
+  /// A file beside the plan, by its whole path; or one of inputs, by its name there.
+  std::string found_file(const char *what) const {
     const fs::path beside = plan_.deck_folder / value_;
-    if (is_file(beside))
-      scene().deck = beside.lexically_normal().string();
-    else if (is_file(input_file(value_)))
-      scene().deck = value_;
-    else
-      refuse(fmt::format("a deck in {}, or in {}",
-                         plan_.names_deck_folder ? plan_.deck_folder.string() : "the folder of the plan",
-                         input_file("").string()));
+    if (is_file(beside)) return beside.lexically_normal().string();
+    if (is_file(input_file(value_))) return value_;
+    refuse(fmt::format("{} in {}, or in {}", what,
+                       plan_.names_deck_folder ? plan_.deck_folder.string() : "the folder of the plan",
+                       input_file("").string()));
   }
+
+  void take_deck() { scene().deck = found_file("a deck"); }
 
   void take_deck_folder() {
     if (seen_.count("deck") > 0) refuse("above the line deck");
@@ -456,12 +493,98 @@ private:
     const std::vector<std::string> words = words_of(value_);
     const auto axis = std::find_if(plan_.axes.begin(), plan_.axes.end(),
                                    [&](const Axis &one) { return !words.empty() && one.name == words[0]; });
-    const std::optional<double> place = words.size() == 2 ? any_number_from_text(words[1]) : std::nullopt;
-    if (axis == plan_.axes.end() || !place || !(std::abs(*place) <= above_zero.most))
-      refuse("AXIS NUMBER, an axis that a line `axis` names");
+    double place = words.size() == 2 ? any_number_from_text(words[1]).value_or(NAN) : NAN;
+    if (axis != plan_.axes.end() && words.size() == 2 && std::isnan(place))
+      place = place_in_sweep(words[0], words[1]);
+    if (axis == plan_.axes.end() || !(std::abs(place) <= above_zero.most))
+      refuse("AXIS NUMBER, an axis that a line `axis` names; or, below a line over, AXIS NAME or "
+             "AXIS NAME*NUMBER of its variables");
     if (!seen_.insert(keyword_ + " " + words[0]).second) refuse("each axis once");
-    scene().at[words[0]] = *place;
+    scene().at[words[0]] = place;
   }
+
+  /// The place of the first scene that a line `over` makes, and the rule for the others; NaN if the text is
+  /// not NAME or NAME*NUMBER of its variables.
+  double place_in_sweep(const std::string &axis, const std::string &text) {
+    if (!in_scene_) return NAN;
+    Sweep &over = sweeps_.back();
+    const std::size_t times = text.find('*');
+    const auto name = std::find(over.names.begin(), over.names.end(), text.substr(0, times));
+    const double factor =
+        times == std::string::npos ? 1.0 : any_number_from_text(text.substr(times + 1)).value_or(NAN);
+    if (name == over.names.end()) return NAN;
+    over.at[axis] = {static_cast<std::size_t>(name - over.names.begin()), factor};
+    double sum = 0.0; // of all places: NaN if one of them is no number
+    for (std::size_t n = 0; n < over.values.size(); ++n)
+      sum += place_of(over, axis, n);
+    return std::isfinite(sum) ? place_of(over, axis, 0) : NAN;
+  }
+  static double place_of(const Sweep &over, const std::string &axis, std::size_t n) {
+    const auto &[variable, factor] = over.at.at(axis);
+    return factor * any_number_from_text(over.values[n][variable]).value_or(NAN);
+  }
+
+  void take_over() {
+    only_in_scene();
+    const char *const allowed = "NAME VALUE VALUE ..., or NAME,NAME VALUE,VALUE ...: variables of the deck";
+    std::vector<std::string> words = words_of(value_);
+    Sweep &over = sweeps_.back() = {parts_of(words.front(), ','), {}, {}};
+    for (std::size_t n = 1; n < words.size(); ++n) {
+      over.values.push_back(parts_of(words[n], ','));
+      if (over.values.back().size() != over.names.size()) refuse(allowed);
+    }
+    if (over.values.empty() || !std::all_of(over.names.begin(), over.names.end(), is_name)) refuse(allowed);
+    if (std::set<std::string>(words.begin() + 1, words.end()).size() != over.values.size())
+      refuse("each value once");
+    for (std::size_t i = 0; i < over.names.size(); ++i) {
+      if (!seen_.insert("set " + over.names[i]).second) refuse("each variable once");
+      set(scene(), over.names[i], over.values.front()[i]);
+    }
+    ++settings_;
+  }
+
+  // Known values.
+  void take_expect() {
+    const std::vector<std::string> words = words_of(value_);
+    constexpr std::size_t own = 4;
+    if (words.size() == 1) {
+      if (in_scene_) refuse("QUANTITY VALUE TOLERANCE SOURCE; a file before the first scene");
+      expected_files_.push_back(take_file());
+      return;
+    }
+    only_in_scene();
+    const std::optional<double> value = words.size() < own ? std::nullopt : any_number_from_text(words[1]),
+                                tolerance = value ? any_number_from_text(words[2]) : std::nullopt;
+    if (!tolerance || !std::isfinite(*value) || !(*tolerance >= 0.0))
+      refuse("QUANTITY VALUE TOLERANCE SOURCE, or the file of such values before the first scene");
+    if (!has_quantity(words[0])) refuse("QUANTITY VALUE TOLERANCE SOURCE, a quantity of the plan");
+    if (seen_.insert(keyword_).second) scene().expected.clear();  // those of the scene above
+    const std::vector<std::string> parts = parts_of(value_, '|'); // with a scene that is the scale
+    const std::vector<std::string> source = words_of(parts.front());
+    scene().expected.push_back({words[0], *value, 1.0, *tolerance,
+                                fmt::format("{}", fmt::join(source.begin() + 3, source.end(), " ")),
+                                parts.size() > 1 ? parts[1] : std::string()});
+  }
+  bool has_quantity(const std::string &name) const {
+    return std::any_of(plan_.quantities.begin(), plan_.quantities.end(),
+                       [&name](const Quantity &one) { return one.name == name; });
+  }
+
+  /// A file of the plan, by its whole path.
+  fs::path take_file() {
+    plan_.files.emplace_back(found_file("a file"));
+    return plan_.files.back().is_absolute() ? plan_.files.back() : fs::path(input_file(value_));
+  }
+
+  void take_published() {
+    static const CsvSchema<PublishedPoint> points(
+        {csv_column("axis", &PublishedPoint::axis), csv_column("series", &PublishedPoint::series),
+         csv_column("source", &PublishedPoint::source), csv_column("quantity", &PublishedPoint::quantity),
+         csv_column("at", &PublishedPoint::at), csv_column("value", &PublishedPoint::value)});
+    plan_.published = points.rows(read_table(take_file()));
+  }
+
+  void take_also_in_lammps() { plan_.between_engines = number({0.0, 1.0, ""}); }
   void take_series() { scene().series = value_; }
 
   /// Checks what the lines of a scene, or those before the first one, say together.
@@ -549,11 +672,91 @@ private:
         refuse("a spot in the width of a bed of layers, as long as the largest ball of the lowest one");
   }
 
+  static void set(Scene &scene, const std::string &name, const std::string &value) {
+    for (Setting &setting : scene.settings)
+      if (setting.scope == Scope::all && setting.name == name) {
+        setting.value = value;
+        return;
+      }
+    scene.settings.push_back({Scope::all, name, value});
+  }
+
+  /// Puts in place of a scene with a line `over` those that the line makes.
+  void make_sweeps() {
+    std::vector<Scene> all;
+    for (std::size_t i = 0; i < sweeps_.size(); ++i) {
+      const Scene &scene = plan_.scenes[i];
+      const Sweep &over = sweeps_[i];
+      if (over.names.empty()) all.push_back(scene);
+      for (std::size_t n = 0; n < over.values.size(); ++n) {
+        Scene one = scene;
+        const std::string suffix = fmt::format(": {} {}", over.names.front(), over.values[n].front());
+        one.name += suffix;
+        for (Expected &expected : one.expected)
+          if (!expected.scale_of.empty()) expected.scale_of += suffix;
+        for (std::size_t v = 0; v < over.names.size(); ++v)
+          set(one, over.names[v], over.values[n][v]);
+        for (const auto &[axis, rule] : over.at)
+          one.at[axis] = place_of(over, axis, n);
+        all.push_back(one);
+      }
+    }
+    plan_.scenes = std::move(all);
+    for (const Comparison &one : plan_.comparisons)
+      for (const auto &[scene, base] : one.pairs)
+        for (const std::string &name : {scene, base})
+          if (!has_scene(name)) refuse("scene", name, "without over, since it is compared", 0);
+    for (const Scene &scene : plan_.scenes)
+      for (const Expected &expected : scene.expected)
+        if (!expected.scale_of.empty() && !has_scene(expected.scale_of))
+          refuse("expect", expected.scale_of, "behind | a scene, which has the same line over as this one",
+                 0);
+  }
+  bool has_scene(const std::string &name) const {
+    return std::any_of(plan_.scenes.begin(), plan_.scenes.end(),
+                       [&name](const Scene &scene) { return scene.name == name; });
+  }
+
+  /// Gives the scenes the known values of a file.
+  void take_expected(const fs::path &file) {
+    const Table table = read_table(file);
+    const std::vector<ExpectedRow> rows = expected_rows().rows(table);
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      const auto &[name, expected] = rows[n];
+      const auto scene = std::find_if(plan_.scenes.begin(), plan_.scenes.end(),
+                                      [&name = name](const Scene &one) { return one.name == name; });
+      if (scene == plan_.scenes.end()) csv_refusal(file, table.line(n), "scene", name, "a scene of the plan");
+      if (!has_quantity(expected.quantity))
+        csv_refusal(file, table.line(n), "quantity", expected.quantity, "a quantity of the plan");
+      if (!(std::isfinite(expected.value) && expected.scale > 0.0 && expected.tolerance >= 0.0))
+        csv_refusal(file, table.line(n), "value", number_text(expected.value),
+                    "a number, with a scale above zero and a tolerance");
+      scene->expected.push_back(expected);
+    }
+  }
+
+  /// Puts behind each scene the same in LAMMPS.
+  void make_twins() {
+    if (plan_.between_engines == 0.0 || !engine_fault(Engine::lammps).empty()) return;
+    std::vector<Scene> all;
+    for (const Scene &scene : plan_.scenes) {
+      all.push_back(scene);
+      Scene twin = scene;
+      twin.name += " in LAMMPS";
+      twin.twin = scene.name;
+      twin.deck += ".lammps";
+      if (!is_file(twin.deck) && !is_file(input_file(twin.deck)))
+        refuse("also_in_lammps", fmt::format("{:g}", plan_.between_engines),
+               fmt::format("with a deck {}", fs::path(twin.deck).filename().string()), 0);
+      twin.at.clear(); // where its twin is, it would be taken for another seed of that one
+      all.push_back(twin);
+    }
+    plan_.scenes = std::move(all);
+  }
+
   void add_comparison(const Explicit &one) {
     for (const std::string &name : {one.scene, one.base})
-      if (std::none_of(plan_.scenes.begin(), plan_.scenes.end(),
-                       [&name](const Scene &scene) { return scene.name == name; }))
-        refuse("compare", name, "the name of a scene", one.line);
+      if (!has_scene(name)) refuse("compare", name, "the name of a scene", one.line);
     for (Comparison &known : plan_.comparisons)
       if (known.words == one.words && known.paired == paired_) {
         known.pairs.emplace_back(one.scene, one.base);
@@ -569,7 +772,9 @@ private:
   std::map<std::string, std::optional<std::string>> texts_; ///< of users' decks
   int line_ = 0;
   std::string keyword_, value_;
-  Scene common_; ///< what is before the first scene
+  Scene common_;              ///< what is before the first scene
+  std::vector<Sweep> sweeps_; ///< of each scene
+  std::vector<fs::path> expected_files_;
   bool in_scene_ = false;
   bool paired_ = true, paired_of_scene_ = true;
   int scene_line_ = 0;
@@ -582,14 +787,28 @@ private:
 
 } // namespace
 
+bool Plan::knows(const std::string &quantity) const {
+  return std::any_of(scenes.begin(), scenes.end(),
+                     [&quantity](const Scene &scene) { return known_value(scene, quantity) != nullptr; });
+}
+
+std::vector<Quantity> Plan::measured_in(const Scene &scene) const {
+  std::vector<Quantity> measured;
+  for (const Quantity &quantity : quantities)
+    if (known_value(scene, quantity.name) != nullptr || !knows(quantity.name)) measured.push_back(quantity);
+  return measured;
+}
+
 const Scene &Plan::scene(const std::string &name) const {
   return *std::find_if(scenes.begin(), scenes.end(), [&name](const Scene &one) { return one.name == name; });
 }
 
 std::string Plan::copy() const {
-  const bool has_own_decks = std::any_of(
-      scenes.begin(), scenes.end(), [](const Scene &scene) { return fs::path(scene.deck).is_absolute(); });
-  return !has_own_decks || names_deck_folder ? text
+  const bool has_own_files =
+      std::any_of(scenes.begin(), scenes.end(),
+                  [](const Scene &scene) { return fs::path(scene.deck).is_absolute(); }) ||
+      std::any_of(files.begin(), files.end(), [](const fs::path &file) { return file.is_absolute(); });
+  return !has_own_files || names_deck_folder ? text
                                              : fmt::format("deck_folder {}\n", deck_folder.string()) + text;
 }
 
@@ -614,6 +833,12 @@ Plan Plan::with_balls(int balls) const {
 Plan Plan::quick() const {
   Plan plan = can_be_scaled() ? with_balls(std::min(quick_balls, scenes.front().bed->packing.balls)) : *this;
   if (plan.scenes.size() > quick_scenes) plan.scenes.resize(quick_scenes);
+  // Without those that only scenes left out have.
+  plan.quantities.erase(std::remove_if(plan.quantities.begin(), plan.quantities.end(),
+                                       [&](const Quantity &quantity) {
+                                         return knows(quantity.name) && !plan.knows(quantity.name);
+                                       }),
+                        plan.quantities.end());
   for (Scene &scene : plan.scenes) {
     scene.seeds = std::min(scene.seeds, quick_seeds);
     for (Setting &setting : scene.settings)

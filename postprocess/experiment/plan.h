@@ -15,6 +15,7 @@ namespace drumlin::post {
 /// An axis over which the page draws the results of scenes that have a place on it.
 struct Axis {
   std::string name, label; ///< the label with unit
+  bool is_log = false;     ///< as the axis of the quantities then is, too
 };
 
 /// What differs, in words, and the scenes in which it does: each pair is a scene and the one that it is
@@ -25,6 +26,12 @@ struct Comparison {
   /// Whether the seeds of the two are compared one by one, so that what they share cancels. Else they are two
   /// independent samples.
   bool paired = true;
+};
+
+/// A point that others have published of a quantity over an axis; pages draw it.
+struct PublishedPoint {
+  std::string axis, series, source, quantity;
+  double at = 0.0, value = 0.0; ///< in the units of the axis and the quantity
 };
 
 /// What Plan::can_be_scaled() asks for, in words.
@@ -38,12 +45,21 @@ struct Plan {
   std::vector<Axis> axes;
   std::vector<Scene> scenes; ///< the first is that to which bed sizes refer
   std::vector<Comparison> comparisons;
-  std::string text;                  ///< of a file with this plan
-  std::filesystem::path deck_folder; ///< of decks that are not in inputs/
-  bool names_deck_folder = false;    ///< whether the text does
+  double between_engines =
+      0.0; ///< largest difference of a scene in LAMMPS from its twin, as an error of Expected
+  std::vector<PublishedPoint> published;
+  std::vector<std::filesystem::path> files; ///< with known values and published points
+  std::string text;                         ///< of a file with this plan
+  std::filesystem::path deck_folder;        ///< of decks that are not in inputs/
+  bool names_deck_folder = false;           ///< whether the text does
 
   /// The text of this plan for a file in another folder.
   std::string copy() const;
+  /// Whether one of its scenes has a known value of a quantity.
+  bool knows(const std::string &quantity) const;
+  /// The quantities that are measured in a scene: those for which it has a known value, and those for which
+  /// no scene has one.
+  std::vector<Quantity> measured_in(const Scene &scene) const;
   /// \pre there is one of that name
   const Scene &scene(const std::string &name) const;
   /// Whether its beds can be made smaller or larger: all are in the plane, all variables of the roller are
@@ -57,8 +73,9 @@ struct Plan {
 };
 
 /// Reads a plan: lines `keyword value`, # begins a comment; inputs/study/plans.md has the keywords. Decks are
-/// looked for in the folder of the plan, or that of its line deck_folder, then in inputs/. Throws UsageError
-/// "FILE, line LINE: KEYWORD is 'VALUE'; allowed: WHAT".
+/// looked for in the folder of the plan, or that of its line deck_folder, then in inputs/; so are files of
+/// known values. Scenes that are to run in LAMMPS, too, are left out where it is not set up. Throws
+/// UsageError "FILE, line LINE: KEYWORD is 'VALUE'; allowed: WHAT".
 Plan read_plan(const std::filesystem::path &file);
 
 } // namespace drumlin::post

@@ -1,5 +1,6 @@
 #include "experiment/quantity.h"
 
+#include "experiment/exact_quantities.h"
 #include "record/record.h"
 #include "identify/identified_record.h"
 #include "meter/values.h"
@@ -32,6 +33,7 @@ public:
   RunFiles(std::filesystem::path folder, double width) : folder_(std::move(folder)), width_(width) {}
 
   double width() const { return width_; }
+  const std::filesystem::path &folder() const { return folder_; }
 
   const Table &table(const std::string &name) {
     const auto found = tables_.find(name);
@@ -225,6 +227,14 @@ double cmv_of(RunFiles &run) {
 }
 
 constexpr double relative_tolerance = 0.1;
+
+std::vector<Quantity> with_exact_quantities(std::vector<Quantity> all) {
+  for (const ExactQuantity &one : exact_quantities())
+    all.push_back({one.name, one.label, "-", "-", 1.0, relative_tolerance, false,
+                   [value = one.value](RunFiles &run) { return value(run.folder()); }});
+  return all;
+}
+
 constexpr double settlement_tolerance = 1e-3; // m
 constexpr double share_tolerance = 0.05;
 
@@ -238,7 +248,7 @@ std::vector<const char *> column_ways() {
   return names;
 }
 
-const std::vector<Quantity> &bed_quantities() {
+const std::vector<Quantity> &named_quantities() {
   const auto k = [](const Identification &whole) { return whole.law.k.mean; };
   const auto k_half_width = [](const Identification &whole) { return whole.law.k.half_width; };
   const auto D = [](const Identification &whole) { return whole.law.D.mean; };
@@ -247,41 +257,41 @@ const std::vector<Quantity> &bed_quantities() {
   const auto share = [](const char *name, const char *label, const char *column) {
     return Quantity{name, label, "-", "%", 100.0, share_tolerance, true, share_of_heat(column)};
   };
-  static const std::vector<Quantity> all = {
-      {"acceleration", "peak drum acceleration", "m/s2", "m/s2", 1.0, relative_tolerance, false,
-       of_cycles("a_drum_max", "mean")},
-      {"force", "peak contact force", "N/m", "kN/m", 1e-3, relative_tolerance, false,
-       per_metre(of_cycles("F_contact_max", "mean"))},
-      {"settlement", "settlement per cycle", "m", "mm", 1e3, settlement_tolerance, true,
-       of_cycles("settlement", "per_row")},
-      {"total_settlement", "settlement after the last cycle", "m", "mm", 1e3, settlement_tolerance, true,
-       of_cycles("settlement", "last")},
-      {"contact", "share of time in contact", "-", "-", 1.0, relative_tolerance, false,
-       of_cycles("contact_share", "mean")},
-      {"depth", "depth of the drum at rest over its diameter", "-", "%", 100.0, 0.01, true,
-       [](RunFiles &run) { return 0.5 * run.parameter("drum_depth") / run.parameter("r2"); }},
-      {"CMV", "CMV", "-", "-", 1.0, relative_tolerance, false, &cmv_of},
-      {"k", "stiffness k", "N/m per m", "MN/m per m", 1e-6, relative_tolerance, false, per_metre(of_law(k))},
-      {"k_half_width", "half width of the interval of k in one record", "N/m per m", "MN/m per m", 1e-6,
-       relative_tolerance, false, per_metre(of_law(k_half_width))},
-      {"D", "damping ratio D", "-", "-", 1.0, relative_tolerance, false, of_law(D)},
-      {"D_half_width", "half width of the interval of D in one record", "-", "-", 1.0, relative_tolerance,
-       false, of_law(D_half_width)},
-      {"R2", "R2 of the linear law", "-", "-", 1.0, relative_tolerance, false, of_law(r2)},
-      {"work", "work of the exciter in a cycle", "J/m", "J/m", 1.0, relative_tolerance, false,
-       per_metre(of_cycles("work_excitation", "per_row"))},
-      share("radiation", "waves that leave, of all heat", "dissipated_ground"),
-      share("friction", "friction and rolling, of all heat", "dissipated_friction"),
-      share("dashpots", "dashpots, of all heat", "dissipated_contact"),
-      share("yielding", "yielding, of all heat", "dissipated_yield"),
-      share("bond", "bond, of all heat", "dissipated_bond"),
-      {"released", "released over the work", "-", "%", 100.0, share_tolerance, true, &released_of},
-      {"energy_error", "energy error over the work", "-", "-", 1.0, 1e-3, true, &energy_error_of}};
+  static const std::vector<Quantity> all = with_exact_quantities(
+      {{"acceleration", "peak drum acceleration", "m/s2", "m/s2", 1.0, relative_tolerance, false,
+        of_cycles("a_drum_max", "mean")},
+       {"force", "peak contact force", "N/m", "kN/m", 1e-3, relative_tolerance, false,
+        per_metre(of_cycles("F_contact_max", "mean"))},
+       {"settlement", "settlement per cycle", "m", "mm", 1e3, settlement_tolerance, true,
+        of_cycles("settlement", "per_row")},
+       {"total_settlement", "settlement after the last cycle", "m", "mm", 1e3, settlement_tolerance, true,
+        of_cycles("settlement", "last")},
+       {"contact", "share of time in contact", "-", "-", 1.0, relative_tolerance, false,
+        of_cycles("contact_share", "mean")},
+       {"depth", "depth of the drum at rest over its diameter", "-", "%", 100.0, 0.01, true,
+        [](RunFiles &run) { return 0.5 * run.parameter("drum_depth") / run.parameter("r2"); }},
+       {"CMV", "CMV", "-", "-", 1.0, relative_tolerance, false, &cmv_of},
+       {"k", "stiffness k", "N/m per m", "MN/m per m", 1e-6, relative_tolerance, false, per_metre(of_law(k))},
+       {"k_half_width", "half width of the interval of k in one record", "N/m per m", "MN/m per m", 1e-6,
+        relative_tolerance, false, per_metre(of_law(k_half_width))},
+       {"D", "damping ratio D", "-", "-", 1.0, relative_tolerance, false, of_law(D)},
+       {"D_half_width", "half width of the interval of D in one record", "-", "-", 1.0, relative_tolerance,
+        false, of_law(D_half_width)},
+       {"R2", "R2 of the linear law", "-", "-", 1.0, relative_tolerance, false, of_law(r2)},
+       {"work", "work of the exciter in a cycle", "J/m", "J/m", 1.0, relative_tolerance, false,
+        per_metre(of_cycles("work_excitation", "per_row"))},
+       share("radiation", "waves that leave, of all heat", "dissipated_ground"),
+       share("friction", "friction and rolling, of all heat", "dissipated_friction"),
+       share("dashpots", "dashpots, of all heat", "dissipated_contact"),
+       share("yielding", "yielding, of all heat", "dissipated_yield"),
+       share("bond", "bond, of all heat", "dissipated_bond"),
+       {"released", "released over the work", "-", "%", 100.0, share_tolerance, true, &released_of},
+       {"energy_error", "energy error over the work", "-", "-", 1.0, 1e-3, true, &energy_error_of}});
   return all;
 }
 
-const Quantity *bed_quantity(const std::string &name) {
-  const std::vector<Quantity> &all = bed_quantities();
+const Quantity *named_quantity(const std::string &name) {
+  const std::vector<Quantity> &all = named_quantities();
   const auto found =
       std::find_if(all.begin(), all.end(), [&name](const Quantity &one) { return one.name == name; });
   return found == all.end() ? nullptr : &*found;

@@ -25,11 +25,11 @@ struct Quantity {
   std::function<double(RunFiles &)> value; ///< NaN if the run does not give it
 };
 
-/// The quantities of a roller on a bed that plans name. Forces and stiffnesses are per metre of the drum's
-/// width.
-const std::vector<Quantity> &bed_quantities();
+/// The quantities that plans name: of a roller on a bed, whose forces and stiffnesses are per metre of the
+/// drum's width; and errors of chains and impacts beside their exact solutions.
+const std::vector<Quantity> &named_quantities();
 /// The one of that name; nullptr if there is none.
-const Quantity *bed_quantity(const std::string &name);
+const Quantity *named_quantity(const std::string &name);
 
 /// The ways to make one number of a column: last, gain (last less first), mean, largest, smallest, per_row.
 std::vector<const char *> column_ways();

@@ -174,4 +174,28 @@ std::vector<Effect> effects_of(const Plan &plan, const Results &results) {
   return effects;
 }
 
+std::vector<Judged> judged(const Plan &plan, const Results &results) {
+  const auto mean_of = [&results](const std::string &scene, const std::string &quantity) {
+    const std::vector<double> values = numbers(results.values(scene, quantity));
+    return values.empty() ? std::numeric_limits<double>::quiet_NaN() : mean_interval(values).mean;
+  };
+  std::vector<Judged> all;
+  for (const Scene &scene : plan.scenes) {
+    const auto &known = results.scenes();
+    if (std::find(known.begin(), known.end(), scene.name) == known.end()) continue;
+    for (const Expected &expected : scene.expected) {
+      Judged one{&scene, &expected, mean_of(scene.name, expected.quantity)};
+      const double scale = expected.scale_of.empty()
+                               ? expected.scale
+                               : std::fabs(mean_of(expected.scale_of, expected.quantity));
+      one.error = std::fabs(one.found - expected.value) / scale;
+      if (!scene.twin.empty())
+        one.difference = std::fabs(one.found - mean_of(scene.twin, expected.quantity)) / scale;
+      one.holds = one.error <= expected.tolerance && one.difference <= plan.between_engines;
+      all.push_back(one);
+    }
+  }
+  return all;
+}
+
 } // namespace drumlin::post

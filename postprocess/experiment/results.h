@@ -89,4 +89,17 @@ struct Effect {
 /// Those of a plan's comparisons that have runs of both scenes.
 std::vector<Effect> effects_of(const Plan &plan, const Results &results);
 
+/// A known value of a scene beside what its runs give.
+struct Judged {
+  const Scene *scene = nullptr; ///< of the plan
+  const Expected *expected = nullptr;
+  double found = 0.0; ///< mean over the seeds
+  double error = 0.0; ///< its difference from the known value, over the scale
+  double difference =
+      0.0;            ///< of a scene in LAMMPS, that from its twin in LIGGGHTS, over the same scale; else 0
+  bool holds = false; ///< false if the runs do not give the quantity, too
+};
+/// Those of the scenes that have runs.
+std::vector<Judged> judged(const Plan &plan, const Results &results);
+
 } // namespace drumlin::post

@@ -119,7 +119,7 @@ private:
 
   bool is_finished(const Scene &scene, int seed) {
     bool all = true;
-    for (const Quantity &quantity : plan_.quantities)
+    for (const Quantity &quantity : plan_.measured_in(scene))
       all = has(scene, seed, quantity) && all;
     return all;
   }
@@ -136,11 +136,12 @@ private:
     try {
       const std::unique_ptr<DeckRun> run = run_scene(scene, seed, out_, soil);
       const double width = scene.bed && scene.bed->packing.depth > 0.0 ? scene.bed->packing.depth : 1.0; // m
-      const std::vector<double> values = measured(plan_.quantities, run->file(""), width);
+      const std::vector<Quantity> quantities = plan_.measured_in(scene);
+      const std::vector<double> values = measured(quantities, run->file(""), width);
       if (keep_) keep_files(run->file(""), folder_of(scene) / std::to_string(seed));
       const std::lock_guard lock(mutex_);
-      add(scene, seed, values, run->outcome().cpu_seconds);
-      progress_.measured(what + words(values));
+      add(scene, seed, quantities, values, run->outcome().cpu_seconds);
+      progress_.measured(what + words(quantities, values));
     } catch (const MissingColumn &fault) { // no run of the plan has it
       throw std::runtime_error(what + fault.what());
     } catch (const std::exception &fault) { // a run that fails does not stop the others
@@ -159,10 +160,11 @@ private:
     return out_ / "runs" / name;
   }
 
-  void add(const Scene &scene, int seed, const std::vector<double> &values, double cost) {
+  void add(const Scene &scene, int seed, const std::vector<Quantity> &quantities,
+           const std::vector<double> &values, double cost) {
     std::vector<ResumedTable::Row> rows;
     for (std::size_t q = 0; q < values.size(); ++q) {
-      const Quantity &quantity = plan_.quantities[q];
+      const Quantity &quantity = quantities[q];
       if (!has(scene, seed, quantity)) // a kill can have left some of a run's rows
         rows.push_back(
             result_rows().cells({scene.name, seed, quantity.name, quantity.unit, values[q], cost}));
@@ -171,11 +173,11 @@ private:
   }
 
   /// The first values, for the progress.
-  std::string words(const std::vector<double> &values) const {
+  static std::string words(const std::vector<Quantity> &quantities, const std::vector<double> &values) {
     constexpr std::size_t most = 3;
     std::vector<std::string> texts;
     for (std::size_t q = 0; q < std::min(most, values.size()); ++q) {
-      const Quantity &quantity = plan_.quantities[q];
+      const Quantity &quantity = quantities[q];
       texts.push_back(
           fmt::format("{} {:.3g} {}", quantity.name, quantity.scale * values[q], quantity.shown_unit));
     }
@@ -214,9 +216,15 @@ void run_experiment(const Plan &plan, const fs::path &out, const RunOptions &opt
   if (options.page_only)
     for (const std::string &name : runs.missing())
       fmt::print("missing: {}\n", name);
-  write_experiment_page(out, plan, read_results(out, plan), failures);
+  const Results results = read_results(out, plan);
+  write_experiment_page(out, plan, results, failures);
   fmt::print("{}\n", (out / "index.html").string());
   throw_if_any(failures, "the page tells which");
+  const std::vector<Judged> rows = judged(plan, results);
+  const auto missed = std::count_if(rows.begin(), rows.end(), [](const Judged &row) { return !row.holds; });
+  if (missed > 0)
+    throw std::runtime_error(
+        fmt::format("{} of {} known values are not met; the page tells which", missed, rows.size()));
 }
 
 void make_part(const Plan &plan, const Part &part, const fs::path &folder, const RunOptions &options) {

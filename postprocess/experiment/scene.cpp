@@ -167,6 +167,12 @@ std::string soil_text(const Scene &scene) {
   return text + words_of(variables_of(scene, SceneDeck::settle));
 }
 
+const Expected *known_value(const Scene &scene, const std::string &quantity) {
+  for (const Expected &one : scene.expected)
+    if (one.quantity == quantity) return &one;
+  return nullptr;
+}
+
 std::string words_of(const Variables &variables) {
   std::string words;
   for (const auto &[name, value] : variables)

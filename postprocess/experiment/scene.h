@@ -41,6 +41,16 @@ struct SoilBed {
 
 constexpr double soil_density = 2650.0; ///< of the balls [kg/m3]
 
+/// A known value of one of a plan's quantities, with which its mean over the seeds is compared.
+struct Expected {
+  std::string quantity;
+  double value = 0.0;        ///< in the quantity's unit
+  double scale = 1.0;        ///< what an error is divided by, in that unit
+  double tolerance = 0.0;    ///< of an error so divided
+  std::string source;        ///< where the value is from, in words
+  std::string scale_of = {}; ///< the scene whose value is the scale; empty: none
+};
+
 struct Scene {
   std::string name; ///< without commas
   std::string deck; ///< relative to inputs/, or absolute
@@ -57,6 +67,10 @@ struct Scene {
 
   std::map<std::string, double> at = {}; ///< place on each axis over which the page draws the results
   std::string series = {};               ///< name in the legend of these figures
+
+  std::vector<Expected> expected = {}; ///< each quantity once for each source
+  std::string family = {};             ///< the name in the plan, which scenes share that a line `over` makes
+  std::string twin = {};               ///< the scene in LIGGGHTS of which this is the one in LAMMPS
 };
 
 /// One of its decks: the scene's own, or the one beside it that makes its bed, for the same engine.
@@ -76,6 +90,9 @@ Scene scaled(Scene scene, int balls, int of);
 
 /// All that a scene's soil is made of but the seed: scenes with the same text share their settled soil.
 std::string soil_text(const Scene &scene);
+
+/// The first known value of a scene's quantity; nullptr if there is none.
+const Expected *known_value(const Scene &scene, const std::string &quantity);
 
 /// Names and values one after the other.
 std::string words_of(const Variables &variables);

@@ -15,19 +15,6 @@ namespace drumlin::post {
 ///   index.html   tables and figures
 void run_accuracy_study(const StudyOptions &options);
 
-/// `drumlin study benchmarks`: published tests of one or two spheres in both engines, against closed forms
-/// and an integration of the equations of motion.
-///   runs.csv    parameters and results of each run
-///   index.html  tables and figures
-void run_benchmarks_study(const StudyOptions &options);
-
-/// `drumlin study stability`: the longest stable time step, and runs at the limits of the allowed parameters.
-/// Throws std::runtime_error with the runs that fail, after everything is written.
-///   map.csv       longest stable time step at each damping ratio, for both integration schemes
-///   extremes.csv  runs at the limits, each compared with an independent solution
-///   index.html    tables and a figure
-void run_stability_study(const StudyOptions &options);
-
 /// `drumlin study timing`: wall time of a time step on the chain and on beds, what each optional part adds to
 /// it, and throughput and memory from small beds to large ones, on one rank and on two. Also throws
 /// std::runtime_error if runs that compute the same do not end with the balls at the same positions.
@@ -42,14 +29,6 @@ inline constexpr std::array lab_studies = {
           "Error of the chain and of single impacts over step size and wall time, for both integration "
           "schemes and the engine's own contact law; tests what `drumlin advise` says. About half an hour.",
           &run_accuracy_study},
-    Study{"benchmarks",
-          "Published tests of one or two spheres (Chung and Ooi 2011; LAMMPS's unittest/granular): impacts, "
-          "sliding, rolling, rest, in both engines against closed forms. About three minutes.",
-          &run_benchmarks_study},
-    Study{"stability",
-          "The longest stable time step over damping, for both integration schemes; runs at the limits of "
-          "the allowed parameters. About ten minutes.",
-          &run_stability_study},
     Study{"timing",
           "Time of a step on the chain and on settled beds: what each optional part adds, as ratios within "
           "interleaved rounds; balls times steps per second and memory from 2500 balls to a quarter of a "

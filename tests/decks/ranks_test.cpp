@@ -2,10 +2,14 @@
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
+#include "bed/dump_readers.h"
+#include "engine/deck_run.h"
+
 #include <gtest/gtest.h>
 
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -64,6 +68,33 @@ TEST_P(Ranks, AgreeWithOne) {
 const Layout layouts[] = {{2, -3.5}, {3, -1.5}, {4, -1.5}};
 INSTANTIATE_TEST_SUITE_P(Layers, Ranks, ::testing::ValuesIn(layouts),
                          [](const auto &test) { return std::to_string(test.param.ranks); });
+
+// A bed below a drum in the middle of the box, on a border of two ranks, and aside, where a rank has no ball.
+// It is one row of balls: the motion of more is chaotic, so that rounding grows to the size of a radius.
+TEST(BedOnRanks, HasEveryBallWhereItIsOnOne) {
+  constexpr double radius = 0.02; // m, the deck's default
+  for (const char *centre : {"0", "0.8"}) {
+    std::vector<post::TextDump> one;
+    for (const int ranks : {1, 2}) {
+      const Scratch scratch;
+      well(run_deck(
+          post::input_file("study/in.small_bed"),
+          {{"rows", "1"}, {"drum_mass", "100"}, {"settling", "6000"}, {"centre", centre}, {"out", "out"}},
+          scratch.path(), ranks));
+      const post::TextDump last = post::read_text_dumps(scratch / "out/last.dump").back();
+      if (ranks == 1) {
+        one = {last};
+        continue;
+      }
+      ASSERT_EQ(last.rows.size(), one.front().rows.size());
+      for (std::size_t i = 0; i < last.rows.size(); ++i)
+        for (const char *column : {"id", "x", "z"})
+          EXPECT_NEAR(last.rows[i][last.column(column)], one.front().rows[i][last.column(column)],
+                      1e-3 * radius)
+              << column;
+    }
+  }
+}
 
 } // namespace
 } // namespace drumlin::test

@@ -55,7 +55,7 @@ struct Data {
     return chain_curve(chain, name, series.transition, series.stepping, error);
   }
   std::vector<ErrorPoint> curve(double ratio, const Series &series) const {
-    return impact_curve(impacts, series.transition, ratio, series.stepping, &ImpactErrors::worst);
+    return impact_curve(impacts, series.transition, ratio, series.stepping, &ReboundErrors::worst);
   }
 };
 

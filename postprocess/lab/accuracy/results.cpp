@@ -15,8 +15,8 @@ const CsvSchema<ImpactPoint> &impact_points() {
        csv_column("D", &ImpactPoint::damping_ratio, error_digits),
        csv_column("stepping", &ImpactPoint::stepping),
        csv_column("steps_per_contact", &ImpactPoint::steps_per_contact, error_digits),
-       csv_column("worst_restitution_error", &ImpactPoint::errors, &ImpactErrors::worst, error_digits),
-       csv_column("rms_restitution_error", &ImpactPoint::errors, &ImpactErrors::rms, error_digits)},
+       csv_column("worst_restitution_error", &ImpactPoint::errors, &ReboundErrors::worst, error_digits),
+       csv_column("rms_restitution_error", &ImpactPoint::errors, &ReboundErrors::rms, error_digits)},
       4);
   return schema;
 }
@@ -54,7 +54,7 @@ std::vector<std::string> larger_errors(const std::vector<ChainPoint> &points,
 
 std::vector<ErrorPoint> impact_curve(const std::vector<ImpactPoint> &points, Transition transition,
                                      double damping_ratio, const std::string &stepping,
-                                     double ImpactErrors::*error) {
+                                     double ReboundErrors::*error) {
   std::vector<ErrorPoint> curve;
   for (const ImpactPoint &point : points)
     if (point.transition == transition && point.damping_ratio == damping_ratio && point.stepping == stepping)

@@ -15,7 +15,7 @@ struct ImpactPoint {
   double damping_ratio = 0.0;
   std::string stepping;
   double steps_per_contact = 0.0; ///< pi / (w0 dt)
-  ImpactErrors errors{};
+  ReboundErrors errors{};
 };
 
 /// Its columns, of which the first name the point.
@@ -33,6 +33,6 @@ std::vector<std::string> larger_errors(const std::vector<ChainPoint> &points,
 /// The errors of one kind over the steps per contact.
 std::vector<ErrorPoint> impact_curve(const std::vector<ImpactPoint> &points, Transition transition,
                                      double damping_ratio, const std::string &stepping,
-                                     double ImpactErrors::*error);
+                                     double ReboundErrors::*error);
 
 } // namespace drumlin::post

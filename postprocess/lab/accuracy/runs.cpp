@@ -1,6 +1,5 @@
 #include "lab/accuracy/runs.h"
 
-#include "bed/dump_readers.h"
 #include "chain/analysis.h"
 #include "engine/deck_run.h"
 #include "runs/chain_files.h"
@@ -106,34 +105,14 @@ ChainErrors measure_engine_law(const std::string &case_name, int steps_per_cycle
           run.wall_seconds()};
 }
 
-ImpactErrors measure_impacts(Transition transition, double damping_ratio, const std::string &stepping,
-                             double steps_per_contact, int phases) {
-  constexpr double speed = 0.5; // m/s; any speed, since the law is linear
+ReboundErrors measure_impacts(Transition transition, double damping_ratio, const std::string &stepping,
+                              double steps_per_contact, int phases) {
   const DeckRun run("study/in.impacts", {{"transition", transition_name(transition)},
                                          {"D", number_text(damping_ratio)},
                                          {"stepping", stepping},
-                                         {"speed", number_text(speed)},
                                          {"steps_per_contact", number_text(steps_per_contact)},
                                          {"phases", std::to_string(phases)}});
-  return impact_errors(run, phases, transition, damping_ratio, speed);
-}
-
-ImpactErrors impact_errors(const DeckRun &run, int phases, Transition transition, double damping_ratio,
-                           double speed) {
-  run.must_succeed();
-  const std::vector<TextDump> dumps = read_text_dumps(run.file("rebound.txt"));
-  if (dumps.empty() || dumps.back().rows.size() != static_cast<std::size_t>(phases))
-    throw std::runtime_error(fmt::format("in.impacts did not write {} velocities", phases));
-  const double exact = closed_form_restitution(transition_name(transition), damping_ratio);
-  const std::size_t velocity = dumps.back().column("vz");
-  ImpactErrors errors{0.0, 0.0};
-  for (const std::vector<double> &row : dumps.back().rows) {
-    const double error = std::fabs(row[velocity] / speed - exact);
-    errors.worst = std::max(errors.worst, error);
-    errors.rms += error * error / phases;
-  }
-  errors.rms = std::sqrt(errors.rms);
-  return errors;
+  return rebound_errors(run.must_succeed().file(""));
 }
 
 } // namespace drumlin::post

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "advice/step_errors.h"
-#include "engine/deck_run.h"
+#include "experiment/exact_quantities.h"
 
 #include <string>
 
@@ -17,15 +17,8 @@ ChainErrors measure_chain(const ChainParameters &parameters, const std::string &
 ChainErrors measure_engine_law(const std::string &case_name, int steps_per_cycle,
                                const ExactSolution &reference);
 
-/// Errors of the restitution over the phases of the onset, absolute.
-struct ImpactErrors {
-  double worst;
-  double rms;
-};
-ImpactErrors measure_impacts(Transition transition, double damping_ratio, const std::string &stepping,
-                             double steps_per_contact, int phases);
-/// The same of a run of study/in.impacts, at this speed, m/s.
-ImpactErrors impact_errors(const DeckRun &run, int phases, Transition transition, double damping_ratio,
-                           double speed);
+/// Single impacts: errors of the restitution.
+ReboundErrors measure_impacts(Transition transition, double damping_ratio, const std::string &stepping,
+                              double steps_per_contact, int phases);
 
 } // namespace drumlin::post

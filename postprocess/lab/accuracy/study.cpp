@@ -18,7 +18,7 @@ namespace drumlin::post {
 namespace {
 
 /// The points to be measured.
-struct Plan {
+struct Points {
   std::vector<ChainPoint> chain; ///< coarse first
   std::vector<ImpactPoint> impacts;
 };
@@ -33,22 +33,22 @@ std::vector<int> step_counts(int first, int last) {
   return counts;
 }
 
-Plan plan_of(bool quick) {
-  Plan plan;
+Points points_of(bool quick) {
+  Points points;
   const std::vector<std::string> cases =
       quick ? std::vector<std::string>{"II"} : std::vector<std::string>{"I", "II", "III", "IV"};
   const int first = quick ? 200 : 50;
   const auto add = [&](Transition transition, const char *stepping, int last) {
     for (const std::string &name : cases)
       for (const int steps : step_counts(first, last))
-        plan.chain.push_back({name, transition, stepping, steps, {}});
+        points.chain.push_back({name, transition, stepping, steps, {}});
   };
   for (const Transition transition : {Transition::A, Transition::B}) {
     add(transition, "second", quick ? 400 : 12800);
     add(transition, "stock", quick ? 400 : 204800);
   }
   add(Transition::B, "reference", quick ? 400 : 204800);
-  std::stable_sort(plan.chain.begin(), plan.chain.end(), [](const ChainPoint &a, const ChainPoint &b) {
+  std::stable_sort(points.chain.begin(), points.chain.end(), [](const ChainPoint &a, const ChainPoint &b) {
     return a.steps_per_cycle < b.steps_per_cycle;
   });
 
@@ -58,8 +58,8 @@ Plan plan_of(bool quick) {
       for (const double ratio : quick ? std::vector<double>{0.5} : std::vector<double>{0.2, 0.5, 0.8, 2.0})
         for (const char *stepping : {"second", "stock"})
           if (transition == Transition::B || ratio < 1.0) // else there is no rebound
-            plan.impacts.push_back({transition, ratio, stepping, steps, {}});
-  return plan;
+            points.impacts.push_back({transition, ratio, stepping, steps, {}});
+  return points;
 }
 
 /// The reference solutions, each computed when it is first needed.
@@ -196,16 +196,16 @@ void measure(std::vector<ScalingPoint> plan, const std::vector<ChainPoint> &know
 } // namespace
 
 void run_accuracy_study(const StudyOptions &options) {
-  const Plan plan = plan_of(options.quick);
+  const Points points = points_of(options.quick);
   Sensitivities sensitivities;
   const std::vector<ScalingPoint> other_chains = scaling_plan(options.quick, sensitivities);
   ResumedTable chain(options.out / "chain.csv", chain_points());
   ResumedTable impacts(options.out / "impacts.csv", impact_points());
   ResumedTable scaling(options.out / "scaling.csv", scaling_points());
-  CountedProgress progress(plan.chain.size() + plan.impacts.size() + other_chains.size());
+  CountedProgress progress(points.chain.size() + points.impacts.size() + other_chains.size());
 
-  measure(plan.impacts, options.quick ? 8 : 64, impacts, progress);
-  measure(plan.chain, chain, progress);
+  measure(points.impacts, options.quick ? 8 : 64, impacts, progress);
+  measure(points.chain, chain, progress);
   measure(other_chains, read_points(chain.file(), chain_points()), sensitivities, scaling, progress);
   write_accuracy_page(options.out, !options.quick);
   fmt::print("{}\n", (options.out / "index.html").string());

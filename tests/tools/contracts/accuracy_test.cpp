@@ -77,7 +77,7 @@ TEST(AccuracyStudy, ContinuesWhereItWasInterrupted) {
                   at_400("stock", &post::ChainErrors::velocity), 1e-2);
     }
     const auto impacts = post::impact_curve(post::read_points(out / "impacts.csv", post::impact_points()),
-                                            transition, 0.5, "second", &post::ImpactErrors::worst);
+                                            transition, 0.5, "second", &post::ReboundErrors::worst);
     ASSERT_EQ(impacts.size(), 3u);
     EXPECT_LT(impacts[1].error, 1.5e-4);
     EXPECT_NEAR(impacts[0].error / impacts[2].error, 16, 4);

@@ -151,6 +151,31 @@ TEST(OwnStudy, RunsAnyDeckThatWritesATableAndContinues) {
   EXPECT_NE(post::read_text(out / "index.html").find("Missing: seed 2, too high"), std::string::npos);
 }
 
+TEST(OwnStudy, FailsWhereAKnownValueIsNotMet) {
+  const Scratch scratch;
+  for (const bool met : {true, false}) {
+    const std::string known = met ? "expect height 80 1e-9 by hand\n" : "expect height 81 0.9 by hand\n";
+    post::write_files({{scratch / "in.own", own_deck}, {scratch / "heights.plan", own_plan + known}});
+    const Outcome outcome =
+        run_program({DRUMLIN_TOOLS, "study", "heights.plan", "--fresh"}, {}, scratch.path(), 100.0);
+    EXPECT_EQ(outcome.status, met ? 0 : 1) << outcome.output;
+    EXPECT_EQ(outcome.says("ERROR: drumlin study: 1 of 1 known values are not met; the page tells which\n"),
+              !met);
+  }
+}
+
+TEST(StudiesWithKnownValues, MeetThemInTheirFirstScenes) {
+  for (const char *name : {"benchmarks", "extremes", "stability"}) {
+    const ScratchStudy study(name);
+    const Outcome outcome = study.run();
+    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    expect_sound_page(study.out(), name == std::string("extremes") ? 0 : 1, "index.html", 0);
+    EXPECT_NE(post::read_text(study.out() / "index.html").find(" acceptance criteria hold."),
+              std::string::npos);
+    EXPECT_GE(post::read_table(study.out() / "data/values.csv").rows(), 3U);
+  }
+}
+
 // Parts in folders of their own, two of them at the same time and one killed before its end, are one call.
 TEST(OwnStudy, PartsTogetherAreOneCall) {
   const Scratch scratch;

@@ -1,7 +1,7 @@
 // `drumlin study meter --quick`: the rows against closed forms, and an
 // interrupted call that continues to the same result.
-#include "map/meter/course.h"
-#include "map/meter/study.h"
+#include "map/course.h"
+#include "map/meter_study.h"
 #include "support/files.h"
 #include "support/resumed.h"
 #include "tests/support/checks.h"

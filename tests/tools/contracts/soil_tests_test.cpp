@@ -111,7 +111,7 @@ TEST(CalibratedBed, IsMadeByTheCaseFile) {
   run("in.place", {{"ratio", "1"}, {"bed", soil}, {"start", start}});
   run("in.bed", {{"start", start}, {"balance", "10"}, {"cycles", "4"}, {"Fw", "2940"}});
   const std::vector<double> law =
-      post::measured({*post::bed_quantity("k"), *post::bed_quantity("D")}, scratch / "run", 1.0);
+      post::measured({*post::named_quantity("k"), *post::named_quantity("D")}, scratch / "run", 1.0);
   EXPECT_EQ(law[0], measured[0]);
   EXPECT_EQ(law[1], measured[1]);
 }

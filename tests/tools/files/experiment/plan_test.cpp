@@ -104,6 +104,92 @@ TEST_F(PlanTest, GivesEachSceneWhatItsLinesAndTheSceneAboveSay) {
   EXPECT_EQ(plan.comparisons[2].pairs, (std::vector<Pair>{{"wide / 10", "narrow"}, {"wider", "narrow"}}));
 }
 
+TEST_F(PlanTest, MakesAsManyScenesAsALineOverHasValues) {
+  const Plan plan = read("title T\nquantity gap m last out.csv gap\naxis twice 2 x\ndeck in.own\nset name n\n"
+                         "scene a\nover x,gap 1,5 2,6\nat twice x*2\nexpect gap 5 0.1 by hand\n"
+                         "scene b\nfrom a\nset name m\n");
+  ASSERT_EQ(plan.scenes.size(), 4U);
+  const Scene &last = plan.scenes[3];
+  EXPECT_EQ(plan.scenes[0].name, "a: x 1");
+  EXPECT_EQ(last.name, "b: x 2");
+  EXPECT_EQ(last.family, "b");
+  EXPECT_EQ(post::value_of(last, "x") + post::value_of(last, "gap") + post::value_of(last, "name"), "26m");
+  EXPECT_EQ(plan.scenes[1].at.at("twice"), 4.0);
+  ASSERT_EQ(last.expected.size(), 1U);
+  EXPECT_EQ(last.expected[0].value, 5.0);
+  EXPECT_EQ(last.expected[0].source, "by hand");
+}
+
+TEST_F(PlanTest, TakesTheValueOfAnotherSceneAsAScaleAndMeasuresWhatIsKnown) {
+  const std::string own = "title T\nquantity gap m last out.csv gap\nquantity height m last out.csv h\n"
+                          "quantity time s last out.csv t\ndeck in.own\n"
+                          "scene a\nover x 1 2 3\nexpect gap 5 0.1 by hand\n";
+  const Plan plan =
+      read(own + "scene b\nfrom a\nexpect gap 0 1.2 the other | a\nexpect height 1 1 by hand\n");
+  EXPECT_EQ(plan.scenes[3].expected[0].scale_of, "a: x 1");
+  EXPECT_EQ(plan.scenes[3].expected[0].source, "the other");
+  const auto names = [&plan](std::size_t scene) {
+    std::string all;
+    for (const post::Quantity &one : plan.measured_in(plan.scenes[scene]))
+      all += one.name + " ";
+    return all;
+  };
+  EXPECT_EQ(names(0), "gap time ");
+  EXPECT_EQ(names(3), "gap height time ");
+  EXPECT_EQ(plan.quick().quantities.size(), 2U); // its three scenes have no height
+  expect_refused(own + "scene b\nset x 1\nexpect gap 0 1 the other | a\n",
+                 ": expect is 'a'; allowed: behind | a scene, which has the same line over as this one");
+}
+
+TEST_F(PlanTest, TakesKnownValuesAndPublishedPointsFromFiles) {
+  const std::string own = "title T\nquantity gap m last out.csv gap\ndeck in.own\nexpect known.csv\n";
+  const auto known = [this](const std::string &rows) {
+    post::write_files(
+        {{temporary_.path() / "known.csv", "scene,quantity,value,scale,tolerance,source\n" + rows}});
+  };
+  known("a: x 2,gap,3,10,1e-3,book\n");
+  post::write_files(
+      {{temporary_.path() / "points.csv", "axis,series,source,quantity,at,value\nload,s,paper,gap,1,2\n"}});
+  const Plan plan = read(own + "published points.csv\nscene a\nover x 1 2\n");
+  EXPECT_TRUE(plan.scenes[0].expected.empty());
+  ASSERT_EQ(plan.scenes[1].expected.size(), 1U);
+  EXPECT_EQ(plan.scenes[1].expected[0].scale, 10.0);
+  ASSERT_EQ(plan.published.size(), 1U);
+  EXPECT_EQ(plan.published[0].value, 2.0);
+  EXPECT_EQ(plan.copy().rfind("deck_folder ", 0), 0U);
+
+  const auto refused = [&](const char *row, const char *message) {
+    known(std::string(row) + "\n");
+    try {
+      read(own + "scene a\n");
+      ADD_FAILURE() << row;
+    } catch (const std::runtime_error &error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
+  };
+  refused("b,gap,3,1,1,s", "'scene' is 'b'; allowed: a scene of the plan");
+  refused("a,height,3,1,1,s", "'quantity' is 'height'; allowed: a quantity of the plan");
+  refused("a,gap,3,0,1,s", "'value' is '3'; allowed: a number, with a scale above zero and a tolerance");
+}
+
+TEST_F(PlanTest, RunsScenesInLammpsTooWhereItIsSetUp) {
+  post::write_files({{temporary_.path() / "in.own.lammps", "print \"${x}\"\n"}});
+  const Plan plan = read("title T\nquantity gap m last out.csv gap\ndeck in.own\nalso_in_lammps 1e-9\n"
+                         "scene a\nset x 1\nscene b\nset x 2\n");
+  EXPECT_EQ(plan.between_engines, 1e-9);
+  if (!post::has_lammps()) {
+    EXPECT_EQ(plan.scenes.size(), 2U);
+    return;
+  }
+  ASSERT_EQ(plan.scenes.size(), 4U);
+  EXPECT_EQ(plan.scenes[1].name, "a in LAMMPS");
+  EXPECT_EQ(plan.scenes[1].twin, "a");
+  EXPECT_EQ(fs::path(plan.scenes[1].deck).filename(), "in.own.lammps");
+  fs::remove(temporary_.path() / "in.own.lammps");
+  expect_refused("title T\nquantity gap m last out.csv gap\ndeck in.own\nalso_in_lammps 1e-9\nscene a\n",
+                 ": also_in_lammps is '1e-09'; allowed: with a deck in.own.lammps");
+}
+
 TEST_F(PlanTest, ReadsWhatEditorsOfWindowsWrite) {
   const Plan plan = read("\xEF\xBB\xBFtitle T\r\nquantity gap m last out.csv gap\r\ndeck in.own\r\nscene a");
   EXPECT_EQ(plan.title, "T");
@@ -242,7 +328,7 @@ TEST_F(PlanTest, RefusesEachBadLine) {
   expect_refused("title T\n", ": quantity is ''; allowed: a line for each");
   expect_refused(own, ": scene is ''; allowed: a line for each");
   expect_refused(own + "ball 5\n",
-                 ", line 4: the keyword is 'ball'; allowed: about, at, axis, balls, compare, ");
+                 ", line 4: the keyword is 'ball'; allowed: about, also_in_lammps, at, axis, balls, ");
   expect_refused(own + "note that &\n",
                  ", line 4: the last line is 'note that &'; allowed: a line below one that ends with &");
   expect_refused(own + "seeds\n", ", line 4: seeds is ''; allowed: a value after it");
@@ -345,6 +431,29 @@ TEST_F(PlanTest, RefusesEachBadLine) {
   expect_refused("deck " + std::string(5000, 'x') + "\n", ", line 1: deck is 'xxx");
   expect_refused(own + "stiffness -1\n",
                  ", line 4: stiffness is '-1'; allowed: a number from 1e-06 to 1e+15 [N/m]");
+  const char *const over = "NAME VALUE VALUE ..., or NAME,NAME VALUE,VALUE ...";
+  for (const char *line : {"x", "x,y 1,2 3", "x-y 1"})
+    expect_refused(own + "scene a\nover " + line + "\n",
+                   fmt::format(", line 5: over is '{}'; allowed: {}", line, over));
+  expect_refused(own + "scene a\nover x 1 1\n", ", line 5: over is 'x 1 1'; allowed: each value once");
+  expect_refused(own + "scene a\nset x 1\nover x 1\n",
+                 ", line 6: over is 'x 1'; allowed: each variable once");
+  expect_refused(own + "over x 1\n", ", line 4: over is 'x 1'; allowed: below the line of a scene");
+  expect_refused(own + "scene a\nover nil 1 2\n",
+                 ", line 4: scene is 'a'; allowed: without set nil, a variable that deck");
+  expect_refused(own + "scene a\nover x 1 2\nscene b\nfrom a\ndiffers it\n",
+                 ": scene is 'b'; allowed: without over, since it is compared");
+  expect_refused(
+      own + "axis load load [N]\nscene a\nover x 1 b\nat load x\n",
+      ", line 7: at is 'load x'; allowed: AXIS NUMBER, an axis that a line `axis` names; or, below");
+  const char *const expect = "QUANTITY VALUE TOLERANCE SOURCE";
+  for (const char *line : {"gap 1", "gap 1 2", "gap one 2 s", "gap 1 -1 s", "gap 1 nan s", "gap inf 1 s",
+                           "height 1 1 s", "known.csv"})
+    expect_refused(own + "scene a\nexpect " + line + "\n",
+                   fmt::format(", line 5: expect is '{}'; allowed: {}", line, expect));
+  expect_refused(own + "expect none.csv\n", ", line 4: expect is 'none.csv'; allowed: a file in the folder");
+  expect_refused(own + "expect gap 1 1 s\n", ", line 4: expect is 'gap 1 1 s'; allowed: below the line of a");
+  expect_refused(own + "also_in_lammps yes\n", ", line 4: also_in_lammps is 'yes'; allowed: a number from 0");
   expect_refused(own + "balls many\n",
                  ", line 4: balls is 'many'; allowed: a whole number from 1 to 10000000");
   expect_refused(bed + "radius_min x\n",
@@ -407,6 +516,9 @@ TEST(PlansOfTheProject, AreCompleteAndHaveTheResultsBesideThem) {
   EXPECT_EQ(runs("box"), 3U * 6U + 10U * 3U);
   EXPECT_EQ(runs("suction"), 9U * 5U);
   EXPECT_EQ(runs("penetration"), 6U * 3U);
+  EXPECT_EQ(runs("extremes"), 235U);
+  EXPECT_EQ(runs("stability"), 6U * 30U + 2U);
+  EXPECT_EQ(runs("benchmarks"), (post::has_lammps() ? 2U : 1U) * 143U);
   EXPECT_EQ(runs("drive"), 3U * 5U + 20U * 3U);
   for (const char *study : {"fidelity", "box", "friction", "stiffness", "damping", "scatter"}) {
     const Plan plan = plan_of(study);

@@ -37,7 +37,7 @@ std::vector<double> values_of(const std::vector<const char *> &names, const fs::
   std::vector<post::Quantity> quantities;
   quantities.reserve(names.size());
   for (const char *name : names)
-    quantities.push_back(*post::bed_quantity(name));
+    quantities.push_back(*post::named_quantity(name));
   return post::measured(quantities, folder, width);
 }
 
@@ -207,8 +207,8 @@ TEST(Effect, OfSeveralPairsOfScenesCountsAllOfThem) {
 post::Plan made_up_plan() {
   post::Plan plan;
   plan.title = "Made up";
-  plan.quantities = {*post::bed_quantity("force"), *post::bed_quantity("settlement"),
-                     *post::bed_quantity("k")};
+  plan.quantities = {*post::named_quantity("force"), *post::named_quantity("settlement"),
+                     *post::named_quantity("k")};
   plan.axes = {{"load", "static load [kN/m]"}};
   plan.scenes = {{"base", "in.own"}, {"A", "in.own"}};
   plan.scenes[0].at["load"] = 10.0;
@@ -248,8 +248,8 @@ TEST(ShownQuantities, HaveUnitsThatFitAndChangesInThemWhereValuesHaveBothSigns) 
       post::column_quantity("gain", "-", "gain", "passes.csv", "density [-]"),
       post::column_quantity("force", "N/m", "mean", "passes.csv", "force [N]"),
       post::column_quantity("stiffness", "N/m", "mean", "passes.csv", "k [N/m]"),
-      *post::bed_quantity("settlement"),
-      *post::bed_quantity("force")};
+      *post::named_quantity("settlement"),
+      *post::named_quantity("force")};
   std::vector<Result> rows;
   for (int seed = 1; seed <= 2; ++seed) {
     const double aside = seed == 1 ? -1e-3 : 1e-3;
@@ -292,6 +292,73 @@ TEST(ExperimentPage, WritesNamesOfThePlanAsTheyAre) {
     const std::string drawn = post::read_text(temporary.path() / "figures" / (std::string(name) + ".svg"));
     EXPECT_NE(drawn.find("lift_gain"), std::string::npos) << name;
   }
+}
+
+/// A scene with a known value in both engines, and another.
+post::Plan plan_with_known_values() {
+  post::Plan plan;
+  plan.title = "T";
+  plan.quantities = {post::column_quantity("height", "m", "last", "f.csv", "h"),
+                     post::column_quantity("time", "s", "last", "f.csv", "t")};
+  plan.axes = {{"load", "load [N]"}};
+  plan.published = {{"load", "s", "a book", "height", 2.5, 0.3}};
+  plan.between_engines = 1e-3;
+  const auto add = [&plan](const std::string &name, const std::string &family, const std::string &twin) {
+    post::Scene scene;
+    scene.name = name, scene.family = family, scene.twin = twin, scene.series = "s";
+    if (twin.empty()) scene.at["load"] = static_cast<double>(plan.scenes.size());
+    scene.expected = {{"height", 0.5, 2.0, 0.01, "a book"}};
+    plan.scenes.push_back(scene);
+  };
+  add("a: x 1", "a", "");
+  add("a: x 1 in LAMMPS", "a", "a: x 1");
+  add("b", "b", "");
+  return plan;
+}
+
+TEST(KnownValues, AreMetWithinTheirTolerancesAndInBothEngines) {
+  const post::Plan plan = plan_with_known_values();
+  const auto holds = [&plan](double first, double twin, double other) {
+    std::vector<bool> found;
+    for (const post::Judged &row :
+         post::judged(plan, Results({{"a: x 1", 1, "height", "m", first, 1.0},
+                                     {"a: x 1 in LAMMPS", 1, "height", "m", twin, 1.0},
+                                     {"b", 1, "height", "m", other, 1.0}})))
+      found.push_back(row.holds);
+    return found;
+  };
+  using Found = std::vector<bool>;
+  EXPECT_EQ(holds(0.518, 0.519, 0.481), (Found{true, true, true})); // errors are relative to 2 m
+  EXPECT_EQ(holds(0.521, 0.5195, 0.479), (Found{false, true, false}));
+  EXPECT_EQ(holds(0.500, 0.503, none), (Found{true, false, false}));
+  post::Plan scaled = plan;
+  scaled.scenes[2].expected = {{"height", 0.0, 1.0, 1.2, "a", "a: x 1"}};
+  for (const double other : {1.19, 1.21}) // times that of the other scene
+    EXPECT_EQ(post::judged(scaled, Results({{"a: x 1", 1, "height", "m", 0.5, 1.0},
+                                            {"b", 1, "height", "m", 0.5 * other, 1.0}}))
+                  .back()
+                  .holds,
+              other < 1.2);
+  EXPECT_EQ(post::judged(plan, Results({{"b", 1, "time", "s", 1.0, 1.0}})).size(), 1U); // it gave no height
+}
+
+TEST(ExperimentPage, ShowsKnownValuesAndPublishedPoints) {
+  const post::TemporaryFolder temporary(testing::TempDir(), "experiment_known");
+  std::vector<Result> rows;
+  for (const auto &[scene, value] : {std::pair{"a: x 1", 0.5}, {"a: x 1 in LAMMPS", 0.5}, {"b", 0.6}}) {
+    rows.push_back({scene, 1, "height", "m", value, 1.0});
+    rows.push_back({scene, 1, "time", "s", 1.0, 1.0});
+  }
+  post::write_experiment_page(temporary.path(), plan_with_known_values(), Results(rows), {});
+  expect_sound_page(temporary.path(), 1, "index.html", 0);
+  EXPECT_NE(post::read_text(temporary.path() / "index.html").find("1 of 2 acceptance criteria hold"),
+            std::string::npos);
+  const post::Table summary = post::read_table(temporary.path() / "data/summary.csv");
+  EXPECT_EQ(summary.text("scene"), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(summary.text("runs"), (std::vector<std::string>{"2", "1"}));
+  EXPECT_EQ(summary.text("largest error"), (std::vector<std::string>{"0.0e+00", "5.0e-02"}));
+  EXPECT_NE(post::read_text(temporary.path() / "figures/over_load.svg").find("published, s, a book"),
+            std::string::npos);
 }
 
 TEST(ResultRows, ComeBackBitForBit) {

@@ -1,6 +1,6 @@
 // The meter along one number of the chain: its values against exact piecewise solutions, where values return,
 // and the command as a user runs it.
-#include "map/meter/course.h"
+#include "map/course.h"
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/process.h"

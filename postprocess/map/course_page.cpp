@@ -1,5 +1,5 @@
 #include "map/figures.h"
-#include "map/meter/course.h"
+#include "map/course.h"
 #include "pages/figure_data.h"
 #include "pages/page.h"
 

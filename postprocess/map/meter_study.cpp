@@ -1,8 +1,8 @@
-#include "map/meter/study.h"
+#include "map/meter_study.h"
 
 #include "engine/places.h"
 #include "files/roller.h"
-#include "map/meter/course.h"
+#include "map/course.h"
 
 #include <fmt/format.h>
 

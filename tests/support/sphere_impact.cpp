@@ -1,33 +1,25 @@
-// Impacts of spheres: closed form of sliding, and the integrated equations of motion.
+#include "tests/support/sphere_impact.h"
+
 #include "chain/analysis.h"
-#include "lab/benchmarks/checks.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace drumlin::post {
+namespace drumlin::test {
 
 namespace {
 
 /// Masses, radii and law of a contact. Sphere 2, or the floor, has no inverse mass where it is fixed.
 struct Contact {
   explicit Contact(const SphereSetup &s)
-      : pair(s.spheres > 1.0), r1(s.r1), r2(pair ? s.r2 : 0.0), inverse1(1.0 / s.m1),
-        inverse2(pair ? 1.0 / s.m2 : 0.0), m_eff(1.0 / (inverse1 + inverse2)),
-        approach(s.vn * (1.0 - s.velocity_ratio)), hertz(s.k == 0.0),
-        k(hertz ? 4.0 / 3.0 * s.E_eff * std::sqrt(pair ? r1 * r2 / (r1 + r2) : r1) : s.k),
-        kt(hertz ? 8.0 * s.G_eff * std::sqrt(pair ? r1 * r2 / (r1 + r2) : r1) : s.kt) {}
+      : pair(s.pair()), r1(s.r1), r2(pair ? s.r2 : 0.0), inverse1(1.0 / s.m1),
+        inverse2(pair ? 1.0 / s.m2 : 0.0), m_eff(s.m_eff()), approach(s.approach()), hertz(s.k == 0.0),
+        k(s.stiffness()), kt(hertz ? 8.0 * s.G_eff * std::sqrt(s.r_eff()) : s.kt) {}
 
   /// Velocity of the surface of sphere 1 over that of sphere 2, at the full radii.
   double slip(double vx, double spin, double vx2, double spin2) const {
     return vx - r1 * spin - vx2 - r2 * spin2;
   }
-  /// Largest overlap of an elastic impact, m.
-  double overlap() const {
-    return hertz ? std::pow(1.25 * m_eff * approach * approach / k, 0.4) : approach * std::sqrt(m_eff / k);
-  }
-  /// Duration of an elastic impact, s.
-  double duration() const { return (hertz ? 2.94 : M_PI) * overlap() / approach; }
   double spring(double d) const { return hertz ? k * d * std::sqrt(d) : k * d; }
   double tangential(double d) const { return hertz ? kt * std::sqrt(d) : kt; }
 
@@ -40,9 +32,9 @@ struct Contact {
 /// D of a coefficient of restitution under B: the closed form of the linear law, which holds for both laws.
 double damping_ratio(double e) {
   const auto restitution = [](double D) {
-    ImpactParameters p;
+    post::ImpactParameters p;
     p.damping_ratio = D;
-    return -impact_state(p, impact_duration(p)).rate;
+    return -post::impact_state(p, post::impact_duration(p)).rate;
   };
   double low = 0.0, high = 20.0;
   for (int i = 0; i < 100; ++i)
@@ -75,6 +67,17 @@ double friction(Motion &m, double slip, double kt, double ct, double most, doubl
 
 } // namespace
 
+double SphereSetup::stiffness() const { return k > 0.0 ? k : 4.0 / 3.0 * E_eff * std::sqrt(r_eff()); }
+
+double SphereSetup::overlap() const {
+  const double square = m_eff() * approach() * approach();
+  return k > 0.0 ? std::sqrt(square / k) : std::pow(1.25 * square / stiffness(), 0.4);
+}
+
+double SphereSetup::contact_time() const {
+  return k > 0.0 ? M_PI * std::sqrt(m_eff() / k) : 2.94 * overlap() / approach();
+}
+
 bool slides_throughout(const SphereSetup &setup) {
   const Contact c(setup);
   const double impulse = setup.mu * (1.0 + setup.e) * c.m_eff * c.approach;
@@ -91,7 +94,7 @@ AfterImpact sliding_impact(const SphereSetup &setup) {
   // Mean of d, weighted with the force, over the largest d.
   const double mean = c.hertz ? 0.5 * std::tgamma(1.4) * std::tgamma(0.5) / std::tgamma(1.9) : 0.25 * M_PI;
   const auto turned = [&](double r, double inverse) {
-    return r > 0.0 ? J * inverse * (r - 0.5 * mean * c.overlap()) / (0.4 * r * r) : 0.0;
+    return r > 0.0 ? J * inverse * (r - 0.5 * mean * setup.overlap()) / (0.4 * r * r) : 0.0;
   };
   return {setup.vt - J * c.inverse1,
           -setup.vn + normal * c.inverse1,
@@ -109,7 +112,7 @@ AfterImpact integrated_impact(const SphereSetup &setup) {
   const auto force = [&](double d, double rate) { return d > 0.0 ? c.spring(d) + dashpot(d) * rate : 0.0; };
   constexpr int fine = 200000,
                 first = 1000; // the first steps are smaller, since forces begin like roots of time
-  const double longest = c.duration() / fine;
+  const double longest = setup.contact_time() / fine;
   Motion m;
   m.rate = c.approach;
   m.vx = setup.vt, m.spin = setup.spin;
@@ -144,4 +147,4 @@ AfterImpact integrated_impact(const SphereSetup &setup) {
           m.spin2};
 }
 
-} // namespace drumlin::post
+} // namespace drumlin::test

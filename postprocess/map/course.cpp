@@ -1,4 +1,4 @@
-#include "map/meter/course.h"
+#include "map/course.h"
 
 #include "identify/identified_record.h"
 #include "record/chain_record.h"
