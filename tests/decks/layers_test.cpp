@@ -88,8 +88,7 @@ protected:
                                        {"suction", lists[4]},
                                        {"dimension", dimension},
                                        {"balls", (folder / "balls").string()}});
-    return run_deck(test_deck(engine == "lammps" ? "layers.lammps" : "layers.in"), variables, folder.path(),
-                    ranks);
+    return test::run_scene(engine, "layers", variables, folder.path(), ranks);
   }
   /// The last state of layers.scene with these balls.
   static std::map<long, Ball> last_state(const std::vector<Placed> &balls, const Variables &more,

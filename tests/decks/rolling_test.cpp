@@ -100,21 +100,6 @@ INSTANTIATE_TEST_SUITE_P(
     Decks, RollingHeap, ::testing::Combine(::testing::Values("2", "3"), ::testing::Values("second", "stock")),
     [](const auto &test) { return "in" + std::get<0>(test.param) + "D_" + std::get<1>(test.param); });
 
-TEST_P(RollingHeap, IsTheSameInBothEngines) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  const auto &[dimension, stepping] = GetParam();
-  const auto heap = [&, d = dimension, s = stepping](const char *deck, const char *resistance) {
-    const Scratch folder;
-    well(run_deck(test_deck(deck), {{"dimension", d}, {"stepping", s}, {"contact_rolling", resistance}},
-                  folder.path()));
-    return read_dump(folder / "balls.txt");
-  };
-  const std::vector<Frame> liggghts = heap("heap.in", "0.2");
-  ASSERT_EQ(liggghts.size(), 9u);
-  EXPECT_LT(distance(heap("heap.lammps", "0.2"), liggghts), 1e-9);
-  EXPECT_GT(distance(heap("heap.lammps", "0"), liggghts), 1e-3);
-}
-
 /// In time steps in which a deck asks for the pressure, LIGGGHTS computes the contacts in its own loop; in
 /// all others the plugin computes them in another one. Both give the same motion and the same forces on
 /// balls, bit for bit, the same forces of contacts in fix contact/local to 1e-9 N, and the same energies in
@@ -126,14 +111,14 @@ TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
   for (const char *damping : {"0.2", "20"}) {
     const auto heap = [&, d = dimension, s = stepping](const Scratch &folder, const char *observed,
                                                        const char *pressed) {
-      well(run_deck(test_deck("heap.in"),
-                    {{"dimension", d},
-                     {"stepping", s},
-                     {"contact_D", damping},
-                     {"observed", observed},
-                     {"pressed", pressed},
-                     {"steps", "2400"}},
-                    folder.path()));
+      well(run_scene("liggghts", "heap",
+                     {{"dimension", d},
+                      {"stepping", s},
+                      {"contact_D", damping},
+                      {"observed", observed},
+                      {"pressed", pressed},
+                      {"steps", "2400"}},
+                     folder.path()));
       return post::read_text(folder / "balls.txt");
     };
     const Scratch plain, engine, plugin;
@@ -194,18 +179,18 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
   constexpr double mu = 0.4, mu_r = 0.2; // of heap.scene, as the radius, m
   const auto radius = [](long id) { return 0.5 * (0.07 + 0.02 * std::sin(7.0 * static_cast<double>(id))); };
   const auto &[dimension, stepping] = GetParam();
-  for (const char *deck : {"heap.in", "heap.lammps"}) {
-    if (std::string(deck) == "heap.lammps" && !post::has_lammps()) continue;
+  for (const char *engine : {"liggghts", "lammps"}) {
+    if (std::string(engine) == "lammps" && !post::has_lammps()) continue;
     for (const char *damping : {"10", "40"}) {
       const Scratch folder;
-      well(run_deck(test_deck(deck),
-                    {{"dimension", dimension},
-                     {"stepping", stepping},
-                     {"contact_D", damping},
-                     {"observed", "1"},
-                     {"steps", "4000"},
-                     {"contacts_every", "20"}},
-                    folder.path()));
+      well(run_scene(engine, "heap",
+                     {{"dimension", dimension},
+                      {"stepping", stepping},
+                      {"contact_D", damping},
+                      {"observed", "1"},
+                      {"steps", "4000"},
+                      {"contacts_every", "20"}},
+                     folder.path()));
       int contacts = 0, at_limit = 0;
       std::map<long, std::map<long, double>>
           largest; // torque of each ball that its contacts allow, N m, by step
@@ -215,7 +200,7 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
           // N: the file has nine decimal places of forces, N, and of normals.
           const double digits = 1e-8 * (1.0 + std::hypot(row[2], row[3], row[4]));
           EXPECT_LE(rub, mu * std::max(0.0, push) + digits)
-              << deck << ' ' << damping << ", step " << step << ", balls " << row[0] << ' ' << row[1];
+              << engine << ' ' << damping << ", step " << step << ", balls " << row[0] << ' ' << row[1];
           const long i = std::lround(row[0]), j = std::lround(row[1]); // j = 0: a wall
           const double reduced = j == 0 ? radius(i) : radius(i) * radius(j) / (radius(i) + radius(j));
           for (const long ball : {i, j})
@@ -223,61 +208,20 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
           ++contacts;
           at_limit += rub > 0.999 * mu * push ? 1 : 0;
         }
-      EXPECT_GT(contacts, 1000) << deck << ' ' << damping;
-      EXPECT_GT(at_limit, contacts / 100) << deck << ' ' << damping;
+      EXPECT_GT(contacts, 1000) << engine << ' ' << damping;
+      EXPECT_GT(at_limit, contacts / 100) << engine << ' ' << damping;
 
       int turned = 0;
       for (const Frame &frame : read_dump(folder / "balls.txt"))
         for (const auto &[id, ball] : frame.balls) {
           const double torque = std::hypot(ball.torque[0], ball.torque[1], ball.torque[2]);
           EXPECT_LE(torque, (1.0 + 1e-6) * largest[frame.step][id] + 1e-9)
-              << deck << ' ' << damping << ", ball " << id << " in step " << frame.step;
+              << engine << ' ' << damping << ", ball " << id << " in step " << frame.step;
           turned += torque > 0.0 ? 1 : 0;
         }
-      EXPECT_GT(turned, 100) << deck << ' ' << damping;
+      EXPECT_GT(turned, 100) << engine << ' ' << damping;
     }
   }
-}
-
-/// The motion of a heap of heavily damped balls (D = 20), which are identified by their number in heap.scene,
-/// since the IDs that the engines give them depend on the number of ranks.
-std::vector<Frame> heap_by_number(const char *deck, const std::string &dimension, const char *newton,
-                                  int ranks) {
-  const Scratch folder;
-  well(run_deck(test_deck(deck),
-                {{"dimension", dimension}, {"contact_D", "20"}, {"newton", newton}, {"steps", "2400"}},
-                folder.path(), ranks));
-  std::vector<Frame> frames = read_dump(folder / "balls.txt");
-  const std::map<long, Ball> start = frames.at(0).balls;
-  const auto number = [&start](long id) {
-    const auto &x = start.at(id).x;
-    return 1 + std::lround(std::floor(10 * x[0]) + 5 * std::floor(10 * x[1]) +
-                           30 * std::floor(10 * (x[2] + 0.1)));
-  };
-  for (Frame &frame : frames) {
-    std::map<long, Ball> balls;
-    for (const auto &[id, ball] : frame.balls)
-      balls[number(id)] = ball;
-    frame.balls = balls;
-  }
-  return frames;
-}
-
-/// The normal forces of heavily damped contacts that share a ball are computed together. The friction force
-/// and the torque of rolling resistance of each contact are then limited in proportion to its normal force.
-/// On several ranks, contacts that share a ball may belong to different ranks. The motion must be the same.
-TEST(HeapOnSeveralRanks, IsThatOnOne) {
-  for (const char *dimension : {"2", "3"})
-    for (const auto &[deck, newton] :
-         {std::pair("heap.in", "off"), std::pair("heap.lammps", "off"), std::pair("heap.lammps", "on")}) {
-      if (std::string(deck) == "heap.lammps" && !post::has_lammps()) continue;
-      const std::vector<Frame> one = heap_by_number(deck, dimension, newton, 1);
-      ASSERT_EQ(one.size(), 9u);
-      ASSERT_EQ(one.back().balls.size(), 60u);
-      for (int ranks = 2; ranks <= most_ranks(); ranks *= 2)
-        EXPECT_LT(distance(heap_by_number(deck, dimension, newton, ranks), one), 1e-10)
-            << dimension << "D, " << deck << ", newton " << newton << ", " << ranks << " ranks";
-    }
 }
 
 /// The friction force Ft of a heavily damped contact is limited twice: to the friction coefficient times a
@@ -288,28 +232,28 @@ TEST(HeapOnSeveralRanks, IsThatOnOne) {
 TEST_P(RollingHeap, TheSpringOfFrictionFollowsTheLimit) {
   constexpr double kt = 2.0 / 7.0 * 1e5; // N/m, of heap.scene
   const auto &[dimension, stepping] = GetParam();
-  for (const auto &[deck, undamped_friction] :
-       {std::pair("heap.in", "fix ct all property/global gammat_abs peratomtypepair 3 0 0 0 0 0 0 0 0 0"),
-        std::pair("heap.lammps", "pair_coeff * * 1e5 20 0.4 NULL 0")}) {
-    if (std::string(deck) == "heap.lammps" && !post::has_lammps()) continue;
+  for (const auto &[engine, undamped_friction] :
+       {std::pair("liggghts", "fix ct all property/global gammat_abs peratomtypepair 3 0 0 0 0 0 0 0 0 0"),
+        std::pair("lammps", "pair_coeff * * 1e5 20 0.4 NULL 0")}) {
+    if (std::string(engine) == "lammps" && !post::has_lammps()) continue;
     const Scratch folder;
-    well(run_deck(test_deck(deck),
-                  {{"dimension", dimension},
-                   {"stepping", stepping},
-                   {"contact_D", "20"},
-                   {"rolling_history", "0"},
-                   {"line_of_law", undamped_friction},
-                   {"observed", "1"},
-                   {"steps", "4000"},
-                   {"contacts_every", "4000"}},
-                  folder.path()));
+    well(run_scene(engine, "heap",
+                   {{"dimension", dimension},
+                    {"stepping", stepping},
+                    {"contact_D", "20"},
+                    {"rolling_history", "0"},
+                    {"line_of_law", undamped_friction},
+                    {"observed", "1"},
+                    {"steps", "4000"},
+                    {"contacts_every", "4000"}},
+                   folder.path()));
     double stored = 0.0; // J, of the last step
     const std::map<long, std::vector<ContactRow>> steps = rows_of_contacts(folder / "contacts.txt");
     for (const ContactRow &row : steps.at(4000))
       stored += friction_of(row) * friction_of(row) / (2.0 * kt);
     const double energy = post::read_table(folder / "energies.csv").numbers("tangential").at(0);
-    EXPECT_GT(energy, 0.0) << deck;
-    EXPECT_NEAR(stored, energy, 1e-6 * energy) << deck;
+    EXPECT_GT(energy, 0.0) << engine;
+    EXPECT_NEAR(stored, energy, 1e-6 * energy) << engine;
   }
 }
 
