@@ -1,6 +1,6 @@
 #pragma once
 // Columns and rows of the files of fix roller/history: chain.csv or bed.csv (samples), and cycles.csv (one
-// row per cycle). The page of the fix, plugin/doc/fix_roller_history.md, says what the columns mean.
+// row per cycle). plugin/doc/roller_columns.md says what the columns mean.
 
 #include "fixes/bed_sums.h"
 #include "fixes/cycle_sums.h"
