@@ -217,7 +217,8 @@ protected:
 
 TEST_P(DrumOnChangingSoil, BalancesItsEnergyWithTheWorkOfTheDrive) {
   std::vector<double> counts, errors;
-  for (const double dt : {2e-4, 1e-4, 0.5e-4}) {
+  const bool second = std::get<1>(GetParam()) == "second";
+  for (const double dt : second ? std::vector{1e-4, 2e-4, 0.5e-4} : std::vector{1e-4}) {
     const Scratch folder;
     well(run("travel", folder,
              with(variables(), {{"dt", number(dt)},
@@ -238,8 +239,8 @@ TEST_P(DrumOnChangingSoil, BalancesItsEnergyWithTheWorkOfTheDrive) {
     counts.push_back(1 / dt);
     errors.push_back(worst / most);
   }
-  EXPECT_LT(errors[1], 1e-3);
-  if (std::get<1>(GetParam()) == "second") {
+  EXPECT_LT(errors[0], 1e-3);
+  if (second) {
     EXPECT_LT(fitted_order(counts, errors), -1.7) << errors[0] << ' ' << errors[1] << ' ' << errors[2];
   }
 }

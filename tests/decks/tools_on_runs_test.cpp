@@ -1,7 +1,10 @@
-// Boundaries of regimes that are computed in closed form and from orbits, against runs of the chain in the
-// engine on both sides of them, as near as the error of these runs permits.
-#include "map/orbits.h"
+// What the tools find in runs of the decks: meter values, stiffness and damping, boundaries of regimes.
+#include "tests/support/chain_record.h"
 #include "tests/support/engine_runs.h"
+
+#include "identify/identified_record.h"
+#include "map/orbits.h"
+#include "meter/values.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +15,67 @@
 
 namespace drumlin::test {
 namespace {
+
+// Meter values of the chain in the engine: from the sums over every step, against those of the exact
+// solution.
+namespace meter {
+
+TEST(MeterOfDecks, CmvFromEveryStep) {
+  struct Known {
+    const char *name;
+    double cmv; // reference value, from Fourier integrals over each phase of the exact solution
+  };
+  for (const Known &known : {Known{"II", 155.948}, Known{"III", 105.730}, Known{"IV", 247.175}}) {
+    const Scratch scratch;
+    const Outcome outcome = run_deck(
+        chain_deck("in.chain"),
+        {{"case", known.name}, {"cycles", "120"}, {"out", (scratch / "run").string()}}, scratch.path());
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    for (const char *name : {"run", "run/cycles.csv"}) {
+      const post::MeterRecord record = post::meter_cycles(post::read_record(scratch / name));
+      EXPECT_EQ(record.source, post::HarmonicSource::every_step);
+      EXPECT_EQ(record.cycles.size(), 120U);
+      const post::MeterWindow window = post::meter_windows(record, {}).back();
+      EXPECT_NEAR(*window.cmv / known.cmv, 1.0, 1e-3) << known.name;
+      EXPECT_EQ(window.mode, post::OperatingMode::partial_uplift);
+      EXPECT_LT(*window.rmv, 0.01);
+      EXPECT_GT(*window.energy, 0.0);
+    }
+    // The samples alone, 200 per cycle, are within their own bound.
+    const post::MeterWindow sampled =
+        post::meter_windows(post::meter_cycles(post::read_record(scratch / "run/chain.csv")), {}).back();
+    EXPECT_LT(std::abs(*sampled.cmv - known.cmv), sampled.cmv_bound) << known.name;
+  }
+}
+
+} // namespace meter
+
+// Stiffness and damping found from runs of the engine at the decks' default steps.
+namespace identify {
+
+TEST(Identify, EightChainRuns) {
+  for (const char *name : post::table1_cases)
+    for (const post::Transition transition : {post::Transition::A, post::Transition::B}) {
+      SCOPED_TRACE(std::string(name) + post::transition_name(transition));
+      const post::ChainParameters p = post::table1_case(name, transition);
+      const ChainRun run = run_chain(name, transition, 2000, 200, {{"stepping", "second"}});
+      const post::Record record = record_of(p, run.history);
+      for (const bool accelerations_only : {false, true}) {
+        post::RecordSetting setting;
+        setting.accelerations_only = accelerations_only;
+        const post::LawEstimate law = post::identify_record(record, setting).whole.law;
+        EXPECT_NEAR(law.k.mean, p.k, 1e-3 * p.k);
+        EXPECT_NEAR(law.c.mean, p.damping(), 3e-3 * p.damping());
+        EXPECT_NEAR(law.D.mean, p.D, 3e-3 * p.D);
+      }
+    }
+}
+
+} // namespace identify
+
+// Boundaries of regimes that are computed in closed form and from orbits, against runs of the chain in the
+// engine on both sides of them, as near as the error of these runs permits.
+namespace boundaries {
 
 using namespace post;
 
@@ -95,6 +159,8 @@ TEST(BoundariesOfDecks, ThePeriodDoublesWhereAMultiplierPassesMinusOne) {
   EXPECT_NEAR(lasting[2] / lasting[1], -1.0, 1e-3);
   EXPECT_GT(std::fabs(lasting[2]), 100.0 * std::fabs(dying[2]));
 }
+
+} // namespace boundaries
 
 } // namespace
 } // namespace drumlin::test
