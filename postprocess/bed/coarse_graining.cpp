@@ -1,5 +1,7 @@
 #include "bed/coarse_graining.h"
 
+#include "support/constants.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +12,6 @@
 namespace drumlin::post {
 
 namespace {
-
-constexpr double pi = 3.141592653589793;
 
 /// How a position along one axis is shared by two cells, which are the same cell at the edge.
 struct Pair {

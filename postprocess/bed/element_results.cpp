@@ -1,5 +1,6 @@
 #include "bed/element_results.h"
 
+#include "support/constants.h"
 #include "support/statistics.h"
 
 #include <Eigen/QR>
@@ -12,7 +13,6 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr double degree = 180.0 / 3.14159265358979323846;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// Strains at which a soil no longer dilates; a run that was asked for 0.1 or 0.2 may end just before.
 constexpr double critical_strain_of_compression = 0.0999, critical_strain_of_shear = 0.1999;
@@ -36,7 +36,7 @@ double dilatancy_angle(const std::vector<CompressionRow> &rows, double from, dou
   if (first == last) return std::numeric_limits<double>::quiet_NaN();
   const double axial = last->strain - first->strain;
   const double volume = last->volumetric_strain - first->volumetric_strain;
-  return degree * std::asin(-volume / (2.0 * axial - volume));
+  return degrees_per_radian * std::asin(-volume / (2.0 * axial - volume));
 }
 
 /// E50, MPa, of a peak. The stresses of a row are means since the row before and belong to the strain
@@ -62,7 +62,7 @@ ShearFailure failure_between(const std::vector<ShearRow> &rows, double from, dou
                   mean_between(rows, &ShearRow::strain, from, to, &ShearRow::normal_stress);
   const double first = number_at(rows, &ShearRow::strain, from - around, &ShearRow::volumetric_strain);
   const double last = number_at(rows, &ShearRow::strain, to + around, &ShearRow::volumetric_strain);
-  failure.dilatancy = degree * std::atan((first - last) / (to - from + 2 * around));
+  failure.dilatancy = degrees_per_radian * std::atan((first - last) / (to - from + 2 * around));
   return failure;
 }
 
@@ -110,7 +110,7 @@ double janssen_argument(double wall_share, double wall_friction) {
 
 } // namespace
 
-double Failure::angle() const { return degree * std::asin((axial - side) / (axial + side)); }
+double Failure::angle() const { return degrees_per_radian * std::asin((axial - side) / (axial + side)); }
 
 Strength strength_of(const std::vector<CompressionRow> &rows) {
   const double end = rows.back().strain;
@@ -139,18 +139,18 @@ MohrCoulomb fit_mohr_coulomb(const std::vector<Failure> &failures) {
     ratios.push_back(failure.half_difference() / failure.half_sum());
   }
   const LineFit line = fit_line(inverse_sums, ratios);
-  const auto angle = [](double sine) { return degree * std::asin(std::clamp(sine, -1.0, 1.0)); };
+  const auto angle = [](double sine) { return degrees_per_radian * std::asin(std::clamp(sine, -1.0, 1.0)); };
   const auto [sine, half_width] = line.intercept;
-  const double cosine = std::cos(angle(sine) / degree);
+  const double cosine = std::cos(angle(sine) / degrees_per_radian);
   return {angle(sine), angle(sine - half_width), angle(sine + half_width), line.slope.mean / cosine,
           line.slope.half_width / cosine};
 }
 
-double ShearFailure::angle() const { return degree * std::atan(ratio); }
+double ShearFailure::angle() const { return degrees_per_radian * std::atan(ratio); }
 
 double ShearFailure::davis_angle() const {
-  const double psi = dilatancy / degree;
-  return degree * std::asin(ratio / (std::cos(psi) + ratio * std::sin(psi)));
+  const double psi = dilatancy / degrees_per_radian;
+  return degrees_per_radian * std::asin(ratio / (std::cos(psi) + ratio * std::sin(psi)));
 }
 
 ShearStrength shear_strength_of(const std::vector<ShearRow> &rows) {
@@ -190,7 +190,9 @@ PlateResult plate_result(const std::vector<PlateRow> &rows, double width) {
   return result;
 }
 
-double ActiveState::angle() const { return degree * std::asin((1 - coefficient) / (1 + coefficient)); }
+double ActiveState::angle() const {
+  return degrees_per_radian * std::asin((1 - coefficient) / (1 + coefficient));
+}
 
 ActiveState active_state(const std::vector<OwnWeightRow> &rows, const RestingSoil &soil) {
   const std::size_t window = std::max<std::size_t>(1, rows.size() / 30);
@@ -245,9 +247,9 @@ Slope slope_of(const std::vector<SurfacePoint> &surface, double diameter, bool t
   slope.from = x.front();
   slope.to = x.back();
   slope.intercept = line.intercept.mean;
-  slope.angle = -degree * std::atan(line.slope.mean);
-  slope.half_width =
-      degree * line.slope.half_width * std::sqrt(points_per_ball) / (1 + line.slope.mean * line.slope.mean);
+  slope.angle = -degrees_per_radian * std::atan(line.slope.mean);
+  slope.half_width = degrees_per_radian * line.slope.half_width * std::sqrt(points_per_ball) /
+                     (1 + line.slope.mean * line.slope.mean);
   return slope;
 }
 

@@ -1,5 +1,7 @@
 #include "bed/packing.h"
 
+#include "support/constants.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +15,6 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr double pi = 3.141592653589793;
 /// Cells that the search for neighbours may have, 8 bytes each.
 constexpr double most_cells = 5e7;
 /// Cells and balls that may be looked at while the balls are placed: about an hour. Ten million balls at the

@@ -6,6 +6,7 @@
 #include "experiment/scene_run.h"
 #include "support/csv.h"
 #include "support/files.h"
+#include "support/constants.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double default_frequency = 20.0; ///< Hz, of in.bed
 constexpr int step_digits = 6;             ///< of time steps
 constexpr const char *pour_friction = "pour_friction";

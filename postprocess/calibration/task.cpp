@@ -1,6 +1,7 @@
 #include "calibration/task.h"
 
 #include "support/csv.h"
+#include "support/constants.h"
 #include "support/usage_error.h"
 
 #include <fmt/format.h>
@@ -37,7 +38,6 @@ const std::array<SoilQuantity, 9> soil_quantities = {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr Range tolerance_range = {1e-4, 1.0};
 constexpr double default_tolerance = 0.05;
 constexpr const char *target_option = "--target";

@@ -1,5 +1,7 @@
 #include "chain/analysis.h"
 
+#include "support/constants.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,8 +11,6 @@
 namespace drumlin::post {
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Row r with time[r] <= t < time[r + 1], clamped to the first and last interval.
 std::size_t interval_of(const std::vector<double> &time, double t) {
@@ -389,7 +389,6 @@ ImpactState impact_state(const ImpactParameters &parameters, double time) {
 double impact_duration(const ImpactParameters &parameters) {
   const double w0 = std::sqrt(parameters.stiffness / parameters.mass);
   const double D = parameters.damping_ratio;
-  const double pi = std::acos(-1.0);
   if (parameters.transition == Transition::A)
     return D < 1.0 ? pi / (w0 * std::sqrt(1.0 - D * D)) : std::numeric_limits<double>::infinity();
   // B: k d + c d' = 0 first.
@@ -427,7 +426,6 @@ std::optional<ImpactMeasure> measure_impact(const ChainHistory &history,
 
 double closed_form_restitution(const std::string &transition, double damping_ratio) {
   const double D = damping_ratio;
-  const double pi = std::acos(-1.0);
   // Time in units of 1/w0: d'' + 2 D d' + d = 0, d(0) = 0, d'(0) = 1.
   if (transition == "A") {
     if (D >= 1.0) return 0.0;

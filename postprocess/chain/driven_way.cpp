@@ -1,5 +1,7 @@
 #include "chain/driven_way.h"
 
+#include "support/constants.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -59,7 +61,6 @@ Way random_way(const RandomSoil &soil) {
   // Box and Muller's normal numbers: those of the standard library differ between compilers.
   std::mt19937_64 random(soil.seed);
   const auto normal = [&random] {
-    constexpr double pi = 3.14159265358979323846;
     const double u = (static_cast<double>(random() >> 11U) + 0.5) * 0x1p-53;
     const double v = (static_cast<double>(random() >> 11U) + 0.5) * 0x1p-53;
     return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * pi * v);

@@ -10,6 +10,7 @@
 #include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/options.h"
+#include "support/constants.h"
 #include "support/progress.h"
 
 #include <CLI/CLI.hpp>
@@ -43,7 +44,6 @@ struct Arguments {
   std::optional<std::string> within;
 };
 
-constexpr double pi = 3.14159265358979323846;
 /// The largest number that in.chain allows.
 constexpr int most_cycles = 10'000'000;
 

@@ -3,6 +3,7 @@
 #include "commands/text_options.h"
 #include "support/csv.h"
 #include "support/options.h"
+#include "support/constants.h"
 #include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,6 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr const char *group = "Instead of the case's values";
 
 /// Of a name that is none of chain_numbers, as me_re of an axis, nothing is given.

@@ -6,6 +6,7 @@
 #include "runs/parameter_file.h"
 #include "support/files.h"
 #include "support/options.h"
+#include "support/constants.h"
 #include "support/progress.h"
 
 #include <CLI/CLI.hpp>
@@ -28,7 +29,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr const char *table_name = "identify.csv";
 
 struct Arguments {

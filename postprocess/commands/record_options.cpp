@@ -6,6 +6,7 @@
 #include "runs/parameter_file.h"
 #include "support/csv.h"
 #include "support/options.h"
+#include "support/constants.h"
 #include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>
@@ -23,8 +24,6 @@
 namespace drumlin::post {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Files of a run from which its record may be read.
 constexpr std::array<const char *, 3> run_files = {"chain.csv", "bed.csv", "cycles.csv"};

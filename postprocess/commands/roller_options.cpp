@@ -3,6 +3,7 @@
 #include "commands/text_options.h"
 #include "engine/places.h"
 #include "support/csv.h"
+#include "support/constants.h"
 #include "support/text.h"
 #include "support/usage_error.h"
 
@@ -22,8 +23,6 @@ namespace drumlin::post {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 std::vector<DerivedValue> values_of(const GivenRoller &roller, double g) {
   return derived_values(roller.machine, &roller.setting, 2.0 * pi * roller.setting.frequency, g);

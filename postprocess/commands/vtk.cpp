@@ -9,6 +9,7 @@
 #include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/options.h"
+#include "support/constants.h"
 #include "support/progress.h"
 
 #include <CLI/CLI.hpp>
@@ -40,8 +41,6 @@ namespace {
 /// Side of a cell of the fields in mean diameters of the soil balls, unless the user gives one: some nine
 /// balls in a cell.
 constexpr double default_cell = 3.0;
-
-constexpr double pi = 3.141592653589793;
 
 /// Sides of cells that are not absurd, m.
 constexpr Range cell_range = {1e-9, 1e9, "m"};

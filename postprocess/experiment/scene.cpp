@@ -2,6 +2,7 @@
 
 #include "engine/engine_command.h"
 #include "support/csv.h"
+#include "support/constants.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int digits = 6; // of values that rules compute
 
 // The time steps of case gravel: those of discs of 16 mm radius with k = 1e9 N/m, as many per cycle of 20 Hz

@@ -5,6 +5,7 @@
 #include "meter/values.h"
 #include "record/excitation.h"
 #include "support/csv.h"
+#include "support/constants.h"
 #include "support/range.h"
 #include "support/statistics.h"
 
@@ -17,8 +18,6 @@
 namespace drumlin::post {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void need(const Record &record, bool there, const char *name, const char *allowed) {
   if (!there) csv_fault(record.file, 0, {}, refusal(name, "", allowed));
@@ -211,7 +210,7 @@ bool find_phase(Record &record, const IdentificationSetting &law) {
     if (fit && follows(*fit) && (!best || fit->residual < best->residual)) best = fit;
   }
   // In unbroken contact a phase fits as well as another, up to that at which contact would just be lost.
-  constexpr double degree = pi / 180.0, most = 5.0 * degree;
+  constexpr double most = 5.0 * degree;
   if (!best || best->phase.half_width > most) return false;
   const double as_good = (1.0 + 4.0 / std::sqrt(static_cast<double>(part.size()))) * best->residual;
   for (const double other : {-4.0, 4.0, -8.0, 8.0, -15.0, 15.0}) {

@@ -3,6 +3,7 @@
 #include "chain/linear_algebra.h"
 #include "record/both_ends.h"
 #include "record/excitation.h"
+#include "support/constants.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double pi = 3.14159265358979323846;
 // A length and its rate, or a stiffness and a damping.
 using Pair = std::array<double, 2>;
 // Contacts that act: bit j set, contact j does.

@@ -2,6 +2,7 @@
 
 #include "pages/figure_data.h"
 #include "pages/page.h"
+#include "support/constants.h"
 #include "support/csv.h"
 
 #include <fmt/format.h>
@@ -13,8 +14,6 @@
 namespace drumlin::post {
 
 namespace {
-
-constexpr double degrees = 57.29577951308232; // per radian
 
 // A value with its interval in a unit, with two digits of the half width, but not more decimals than anyone
 // needs; the half width is then rounded up.
@@ -145,7 +144,7 @@ PageTable window_table(const IdentifiedRecord &record) {
     table.add({row.name, time, with_interval(law.k, 1e6), with_interval(law.c, 1e3),
                with_interval(law.D, 1.0), fmt::format("{:.5f}", law.r2),
                fmt::format("{:.3f}", law.contact_share), fmt::format("{}", law.blocks),
-               with_interval(law.phase, 1.0 / degrees)});
+               with_interval(law.phase, 1.0 / degrees_per_radian)});
   }
   for (const LawWindow &window : record.windows)
     if (!window.law)
@@ -277,9 +276,9 @@ std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
       fmt::format("R2 = {:.6f}; RMS residual of the force {:.3g} kN; {} samples in contact, {:.1f} % of all; "
                   "{} contacts or cycles of them.",
                   law.r2, law.force_noise / 1e3, law.samples, 100.0 * law.contact_share, law.blocks),
-      record.phase_known
-          ? std::string("The exciter's phase counts as exact.")
-          : fmt::format("Error of the exciter's phase: {} degrees.", with_interval(law.phase, 1.0 / degrees)),
+      record.phase_known ? std::string("The exciter's phase counts as exact.")
+                         : fmt::format("Error of the exciter's phase: {} degrees.",
+                                       with_interval(law.phase, 1.0 / degrees_per_radian)),
       source_sentence(record)};
   if (const std::string report = report_sentence(record); !report.empty()) lines.push_back(report);
   if (phase_decides(record))
@@ -393,8 +392,6 @@ void write_identification_page(const std::filesystem::path &out, const Identifie
 }
 
 namespace {
-
-constexpr std::array<const char *, 2> half_names = {"left", "right"};
 
 PageTable half_table(const TwoSidedRecord &record) {
   PageTable table("halves", "Soil below each half of the drum, 95 % confidence intervals",

@@ -18,8 +18,6 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr std::array<const char *, 2> half_names = {"left", "right"};
-
 /// Single contacts of each half.
 std::array<HalfStart, 2> single_contacts(const Record &record, const RecordSetting &setting,
                                          const DrumSignals &whole, double phase_within) {

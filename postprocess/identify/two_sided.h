@@ -16,6 +16,8 @@
 
 namespace drumlin::post {
 
+constexpr std::array<const char *, 2> half_names = {"left", "right"};
+
 /// The soil below a half of the drum. Intervals: 95 %.
 struct HalfLaw {
   MeanInterval k{};                   ///< [N/m]

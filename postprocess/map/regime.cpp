@@ -1,6 +1,7 @@
 #include "map/regime.h"
 
 #include "support/harmonics.h"
+#include "support/constants.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,8 +26,6 @@ Regime regime_from_name(const std::string &name) {
 }
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Gauss's rule of 12 points on [-1, 1], the positive half: Abramowitz and Stegun, Handbook of Mathematical
 // Functions, table 25.4.

@@ -2,6 +2,7 @@
 
 #include "support/csv.h"
 #include "support/parallel.h"
+#include "support/constants.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 const Range me_re_range = {1e-9, 1e12, "kg m"};
 const Range frequency_in_hertz = {1e-6, 1e8, "Hz"};
 const Range ratio_range = {1e-3, 1e3, ""};

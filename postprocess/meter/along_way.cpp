@@ -2,6 +2,7 @@
 
 #include "chain/linear_algebra.h"
 #include "support/csv.h"
+#include "support/constants.h"
 #include "support/range.h"
 
 #include <Eigen/Core>
@@ -16,8 +17,6 @@
 namespace drumlin::post {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void need_places(const Record &record) {
   if (record.s.empty())

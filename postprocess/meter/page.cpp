@@ -5,6 +5,7 @@
 #include "pages/page.h"
 #include "runs/parameter_file.h"
 #include "support/csv.h"
+#include "support/constants.h"
 
 #include <fmt/format.h>
 
@@ -16,8 +17,6 @@
 namespace drumlin::post {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// A column of meter.csv, of the table on the page and of the terminal.
 struct MeterColumn {

@@ -1,5 +1,7 @@
 #include "meter/sampling.h"
 
+#include "support/constants.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +10,6 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double sure = 3.0; // standard deviations
 
 /// The value that a quarter of the values does not reach.

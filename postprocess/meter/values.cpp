@@ -1,5 +1,6 @@
 #include "meter/values.h"
 
+#include "support/constants.h"
 #include "support/range.h"
 
 #include <boost/math/tools/toms748_solve.hpp>
@@ -16,8 +17,6 @@ const std::array<const char *, mode_count> mode_names = {"continuous contact", "
                                                          "double jump", "irregular", "same in each cycle"};
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 using Cycles = std::vector<MeterCycle>;
 

@@ -1,5 +1,6 @@
 #include "passes/meter_map.h"
 
+#include "passes/tables.h"
 #include "support/csv.h"
 
 #include <fmt/format.h>
@@ -54,9 +55,6 @@ std::optional<double> gain_between(const std::vector<MapValue> &before, const st
   }
   return first > 0.0 ? std::optional(second / first - 1.0) : std::nullopt;
 }
-
-std::string cell_of(double value) { return std::isfinite(value) ? number_text(value) : ""; }
-std::string cell_of(std::optional<double> value) { return value ? cell_of(*value) : ""; }
 
 } // namespace
 

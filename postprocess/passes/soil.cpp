@@ -1,5 +1,6 @@
 #include "passes/soil.h"
 
+#include "support/constants.h"
 #include "support/range.h"
 
 #include <fmt/format.h>
@@ -14,8 +15,6 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr double pi = 3.141592653589793;
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double most_lines = 1e6;
 
 double square(double x) { return x * x; }
@@ -119,7 +118,7 @@ double mean_over(const std::vector<double> &heights, const VerticalLines &lines,
     sum += heights[line];
     count += 1.0;
   }
-  return count > 0.0 ? sum / count : none;
+  return count > 0.0 ? sum / count : not_a_number;
 }
 
 SoilLayers soil_on(const Drive &drive, const DumpedBed &state, const VerticalLines &lines,
@@ -176,7 +175,7 @@ double compaction_of(const SoilLayers &before, const SoilLayers &after) {
 
 double heave_of(const std::vector<double> &before, const std::vector<double> &after,
                 const VerticalLines &lines, const WayPart &measured, double length) {
-  double largest = none;
+  double largest = not_a_number;
   const double end = lines.low + static_cast<double>(lines.count) * lines.spacing;
   const auto look = [&](const WayPart &side) {
     for (double from = side.from; from + length <= side.to + 1e-9; from += lines.spacing) {

@@ -12,10 +12,10 @@
 
 namespace drumlin::post {
 
-namespace {
-
 std::string cell_of(double value) { return std::isfinite(value) ? number_text(value) : ""; }
 std::string cell_of(std::optional<double> value) { return value ? cell_of(*value) : ""; }
+
+namespace {
 
 /// Depth of a height below the surface before the first pass.
 double depth_of(const PassesResult &result, double height) {

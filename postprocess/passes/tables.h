@@ -6,10 +6,15 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace drumlin::post {
+
+/// A cell of a table; empty for NaN and for no value.
+std::string cell_of(double value);
+std::string cell_of(std::optional<double> value);
 
 /// A number of a pass, as a column of passes.csv.
 struct PassColumn {

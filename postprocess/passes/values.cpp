@@ -2,6 +2,7 @@
 
 #include "bed/relative_density.h"
 #include "identify/identified_record.h"
+#include "support/constants.h"
 #include "support/range.h"
 
 #include <fmt/format.h>
@@ -18,8 +19,6 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 /// Mean of the values that there are; NaN if there is none.
 double mean_of(const std::vector<double> &values) {
   double sum = 0.0, count = 0.0;
@@ -28,7 +27,7 @@ double mean_of(const std::vector<double> &values) {
       sum += value;
       count += 1.0;
     }
-  return count > 0.0 ? sum / count : none;
+  return count > 0.0 ? sum / count : not_a_number;
 }
 
 /// Standard deviation of the values that there are; NaN of less than two.
@@ -40,7 +39,7 @@ double scatter_of(const std::vector<double> &values) {
       squares += (value - mean) * (value - mean);
       count += 1.0;
     }
-  return count > 1.0 ? std::sqrt(squares / (count - 1.0)) : none;
+  return count > 1.0 ? std::sqrt(squares / (count - 1.0)) : not_a_number;
 }
 
 /// The rows of the record in which a pass is on the measured part, as a record.
@@ -123,10 +122,10 @@ private:
     result_.surfaces.push_back(tops.back());
     PassValues values;
     values.pass = static_cast<int>(n);
-    values.energy_exciter = values.energy_traction = values.traction = none;
-    values.cmv = values.cmv_scatter = values.rmv = values.ccv = values.k_B = values.E_vib = none;
-    values.contact_share = values.peak_force = none;
-    values.k = values.k_half_width = values.D = values.D_half_width = none;
+    values.energy_exciter = values.energy_traction = values.traction = not_a_number;
+    values.cmv = values.cmv_scatter = values.rmv = values.ccv = values.k_B = values.E_vib = not_a_number;
+    values.contact_share = values.peak_force = not_a_number;
+    values.k = values.k_half_width = values.D = values.D_half_width = not_a_number;
     values.soil = soil_on(drive_, state, result_.lines, tops, drive_.measured);
     const SoilLayers &first = n == 0 ? values.soil : result_.passes.front().soil;
     values.settlement = first.surface - values.soil.surface;
@@ -155,8 +154,8 @@ private:
       values.solid_scatter.push_back(scatter_of(solid[layer]));
       const bool known = packings_.size() == solid.size();
       const double phi = values.soil.inner_solid_fraction(layer);
-      values.relative_density.push_back(known ? packings_[layer].relative_density(phi) : none);
-      values.degree.push_back(known ? packings_[layer].compaction(phi) : none);
+      values.relative_density.push_back(known ? packings_[layer].relative_density(phi) : not_a_number);
+      values.degree.push_back(known ? packings_[layer].compaction(phi) : not_a_number);
     }
     result_.passes.push_back(std::move(values));
   }
@@ -243,8 +242,8 @@ private:
       cell.meter = window_of(sums_, first, count);
       if (first + count <= samples_.cycles.size()) cell.ccv = window_of(samples_, first, count).ccv;
       for (std::size_t m = 0; m < means.size(); ++m)
-        found[m].push_back((cell.meter.*means[m].from).value_or(none));
-      ccv.push_back(cell.ccv.value_or(none));
+        found[m].push_back((cell.meter.*means[m].from).value_or(not_a_number));
+      ccv.push_back(cell.ccv.value_or(not_a_number));
       if (sums_.vibrates) ++modes[static_cast<std::size_t>(cell.meter.mode)];
     }
     for (std::size_t m = 0; m < means.size(); ++m)

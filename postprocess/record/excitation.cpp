@@ -5,6 +5,7 @@
 #include "record/both_ends.h"
 #include "record/sensor_range.h"
 #include "support/csv.h"
+#include "support/constants.h"
 #include "support/range.h"
 #include "support/statistics.h"
 
@@ -22,8 +23,6 @@
 namespace drumlin::post {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Power of a signal at a frequency, up to a constant factor.
 double power_at(const std::vector<double> &signal, double interval, double omega) {
@@ -399,8 +398,6 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
 }
 
 namespace {
-
-constexpr double degree = pi / 180.0;
 
 /// The mean of the first `count` values, which fade in and out (Hann): neither a period of several cycles nor
 /// the ends of the window change it much.

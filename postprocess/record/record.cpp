@@ -4,6 +4,7 @@
 #include "record/stretches.h"
 #include "runs/parameter_file.h"
 #include "support/csv.h"
+#include "support/constants.h"
 #include "support/range.h"
 #include "support/statistics.h"
 #include "support/units.h"
@@ -29,8 +30,6 @@ namespace drumlin::post {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// The signals that are read: all columns from x_drum, the second, to F_excitation, and the sensors at both
 /// ends of the drum.

@@ -1,5 +1,6 @@
 #include "record/stretches.h"
 
+#include "support/constants.h"
 #include "support/statistics.h"
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 namespace drumlin::post {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// The line of the exciter in overlapping windows of four nominal cycles, each a cycle after the one before.
 struct Line {

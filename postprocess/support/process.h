@@ -54,7 +54,7 @@ std::filesystem::path program_file(const std::string &name);
 /// The same with extra environment entries ("NAME=value") in a folder, which gets the output, for at most
 /// `limit` seconds or until `stop_when`.
 Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
-                    const std::filesystem::path &folder, double limit = 60.0,
+                    const std::filesystem::path &folder, double limit = 600.0,
                     const StopCondition &stop_when = {});
 
 } // namespace drumlin::post

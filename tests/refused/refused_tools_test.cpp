@@ -80,7 +80,7 @@ TEST_P(RefusedTools, InOneLine) {
     program.words = words_of_row(refusal.lines);
     program.folder = folder;
     program.output = scratch / "screen.txt";
-    program.limit = 10.0;
+    program.limit = 100.0;
     const Outcome outcome = run_program(program);
     EXPECT_FALSE(outcome.timed_out);
     EXPECT_TRUE(content(folder) == before) << "files have changed";

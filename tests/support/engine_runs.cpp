@@ -148,7 +148,7 @@ Outcome on_small_disk(const fs::path &folder, const std::string &script) {
   fs::create_directory(folder / "small");
   return run_program(
       {"unshare", "-m", "sh", "-c", "mount -t tmpfs -o size=600k tmpfs small || exit 77\n" + script},
-      {"DRUMLIN_PRELOAD=" + plugin_library(), "DECKS=" + chain_deck("").string()}, folder, 60.0);
+      {"DRUMLIN_PRELOAD=" + plugin_library(), "DECKS=" + chain_deck("").string()}, folder, 600.0);
 }
 
 bool can_mount_small_disk() {

@@ -51,7 +51,7 @@ Outcome run_engine(const fs::path &deck, const std::vector<std::string> &words, 
   const post::EngineCommand command = post::engine_command(deck, arguments, ranks, post::Cores::shared);
   std::vector<std::string> environment = mpi_environment(folder);
   environment.insert(environment.end(), command.environment.begin(), command.environment.end());
-  return run_program(command.words, environment, folder, 60.0);
+  return run_program(command.words, environment, folder, 600.0);
 }
 
 const fs::path host_deck = fs::path(DRUMLIN_SOURCE_DIR) / "tests/support/in.host";

@@ -3,6 +3,7 @@
 #include "identify/identified_record.h"
 #include "record/chain_record.h"
 #include "support/parallel.h"
+#include "support/constants.h"
 #include "support/progress.h"
 #include "support/resumed.h"
 
@@ -17,8 +18,6 @@
 namespace drumlin::post {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 template <double MeterValues::*part>
 double of_meter(const CoursePoint &point) {

@@ -12,12 +12,12 @@
 #include "pages/figure_data.h"
 #include "report/bed/bands.h"
 #include "report/bed/snapshots.h"
+#include "support/constants.h"
 
 namespace drumlin::post {
 
 namespace {
 
-constexpr int shown_cycles = 3;
 constexpr int loop_cycles = 2;
 // The page opens with the picture of the bed under load, then the settlement; without dumps also the motion.
 constexpr double settlement_weight = 5.0;
@@ -26,10 +26,6 @@ constexpr double motion_weight = 4.0;
 /// The name in the legend, with the word "condition": gnuplot places single letters so close to each other
 /// that the next line sample covers them.
 std::string legend(Transition transition) { return "condition " + transition_name(transition); }
-
-CurveStyle line_style(Transition transition) {
-  return transition == Transition::A ? CurveStyle::condition_a : CurveStyle::condition_b;
-}
 
 CurveStyle marked_style(Transition transition) {
   return transition == Transition::A ? CurveStyle::series_2 : CurveStyle::series_1;
@@ -55,7 +51,6 @@ void for_rows(const BedResult &result, TimeWindow window, const Visit &visit) {
 /// Amplitudes of the drum's acceleration at multiples of the frequency of the window, up to six times that of
 /// the excitation: frequency [Hz], amplitude [m/s2].
 Rows<2> spectrum_of(const BedResult &result, const TimeWindow &window, int cycles) {
-  constexpr double pi = 3.14159265358979323846;
   constexpr int highest = 6;
   const ChainHistory &h = result.run.history;
   std::vector<std::size_t> rows;
@@ -243,13 +238,12 @@ private:
     Panel amplitude{"amplitude", "cycle (-)", "amplitude of the drum (mm)", {}};
     Panel phase{"phase", "cycle (-)", "lag behind the exciter's force (degrees)", {}};
     put<3>(table, 1, [](const BedResult &run) {
-      constexpr double degrees = 180.0 / 3.14159265358979323846;
       const auto harmonics = cycle_harmonics(*run.run.cycles).fundamental;
       const double omega = run.run.chain.omega;
       Rows<3> rows;
       for (std::size_t i = 1; i < harmonics.size(); ++i) { // row 0 is the start
         // The force down is sin(omega t), -i as a complex amplitude; the displacement down is a / omega^2.
-        double lag = -90.0 - degrees * std::arg(harmonics[i]);
+        double lag = -90.0 - degrees_per_radian * std::arg(harmonics[i]);
         if (lag <= -90.0) lag += 360.0;
         rows.push_back({static_cast<double>(i), std::abs(harmonics[i]) / (omega * omega), lag});
       }

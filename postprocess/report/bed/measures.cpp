@@ -9,14 +9,13 @@
 #include <fmt/format.h>
 
 #include "report/chain/measures.h"
+#include "support/constants.h"
 
 namespace drumlin::post {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Mean over the rows of a window, both ends included.
 double mean(const std::vector<double> &time, const std::vector<double> &value, TimeWindow window) {

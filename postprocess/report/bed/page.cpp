@@ -17,15 +17,13 @@ namespace drumlin::post {
 
 namespace {
 
-const std::string dash = no_value;
-
-std::string rounded(double value) { return std::isfinite(value) ? two_digits(value) : dash; }
+std::string rounded(double value) { return std::isfinite(value) ? two_digits(value) : no_value; }
 
 /// A size that the files of the bed note, as a multiple of a unit, or a list of those of the layers; a dash
 /// in runs of beds of earlier versions.
 std::string noted(const Run &run, const std::string &name, double per_unit) {
   const std::string text = run.text(name, "unknown");
-  if (text == "unknown") return dash;
+  if (text == "unknown") return no_value;
   std::string sizes;
   for (std::size_t at = 0, end = 0; end != std::string::npos; at = end + 1) {
     end = text.find(',', at);
@@ -92,16 +90,17 @@ PageTable motion_table(const std::vector<BedResult> &beds) {
     const Run &run = result.run;
     const BedMeasures &m = result.measures;
     const bool any = m.cycles > 0;
-    const auto steady = [any](double value) { return any ? rounded(value) : dash; };
-    motion.add(
-        {run.name, transition_name(run.transition()), run.text("friction", dash), run.text("balls", dash),
-         fmt::format("{:g}", 1.0 / run.chain.period()), fmt::format("{}", m.cycles),
-         any ? fmt::format("{} to {}", m.cycles - m.steady_count + 1, m.cycles) : dash,
-         steady(m.extremes.acceleration.max), steady(m.extremes.force.max * 1e-3),
-         steady(m.extremes.force.min * 1e-3), steady(m.contact_share),
-         m.amplitudes ? rounded(compaction_meter_value(*m.amplitudes)) : dash, run.text("stepping", dash),
-         run.steps_per_cycle > 0 ? fmt::format("{}", run.steps_per_cycle) : dash, run.text("ranks", dash),
-         run.text("command", dash)});
+    const auto steady = [any](double value) { return any ? rounded(value) : no_value; };
+    motion.add({run.name, transition_name(run.transition()), run.text("friction", no_value),
+                run.text("balls", no_value), fmt::format("{:g}", 1.0 / run.chain.period()),
+                fmt::format("{}", m.cycles),
+                any ? fmt::format("{} to {}", m.cycles - m.steady_count + 1, m.cycles) : no_value,
+                steady(m.extremes.acceleration.max), steady(m.extremes.force.max * 1e-3),
+                steady(m.extremes.force.min * 1e-3), steady(m.contact_share),
+                m.amplitudes ? rounded(compaction_meter_value(*m.amplitudes)) : no_value,
+                run.text("stepping", no_value),
+                run.steps_per_cycle > 0 ? fmt::format("{}", run.steps_per_cycle) : no_value,
+                run.text("ranks", no_value), run.text("command", no_value)});
     if (!any) motion.notes.push_back(fmt::format("{}: ends before its first complete cycle.", run.name));
     for (const std::string &missing : run.missing)
       motion.notes.push_back(fmt::format("{}: {}", run.name, missing));
@@ -122,13 +121,13 @@ std::string relative_density_of(const Run &run, double void_ratio) {
   try {
     layers = noted_packings(run.parameters);
   } catch (const std::runtime_error &) {
-    return dash; // a file that no deck has written
+    return no_value; // a file that no deck has written
   }
   const auto differs = [&layers](const LayerPackings &layer) {
     return layer.loosest != layers.front().loosest || layer.densest != layers.front().densest;
   };
   if (layers.empty() || !std::isfinite(void_ratio) || std::any_of(layers.begin(), layers.end(), differs))
-    return dash;
+    return no_value;
   return rounded(relative_density(void_ratio, layers.front().loosest, layers.front().densest));
 }
 
@@ -148,9 +147,9 @@ PageTable state_table(const std::vector<BedResult> &beds) {
   for (const BedResult &result : beds) {
     const BedMeasures &m = result.measures;
     const bool any = m.cycles > 0;
-    const auto steady = [any](double value) { return any ? rounded(value) : dash; };
+    const auto steady = [any](double value) { return any ? rounded(value) : no_value; };
     const std::string smallest = noted(result.run, "r_min", 2e3), largest = noted(result.run, "r_max", 2e3);
-    const std::string sizes = largest == dash ? dash : fmt::format("{} to {}", smallest, largest);
+    const std::string sizes = largest == no_value ? no_value : fmt::format("{} to {}", smallest, largest);
     const RowState judged = !std::isfinite(m.imbalance_percent) || !result.run.cut.empty() ? RowState::plain
                             : energy_is_good(m)                                            ? RowState::agrees
                                                 : RowState::differs;
@@ -158,11 +157,11 @@ PageTable state_table(const std::vector<BedResult> &beds) {
                steady(m.settlement_per_cycle * 1e3), rounded(m.coordination_start),
                rounded(m.coordination_end), rounded(m.void_ratio_start),
                rounded(m.void_ratio_end - m.void_ratio_start), rounded(m.imbalance_percent),
-               rounded(m.depth_percent), result.run.text("grading", dash), sizes,
+               rounded(m.depth_percent), result.run.text("grading", no_value), sizes,
                noted(result.run, "d50", 1e3), noted(result.run, "C_u", 1.0),
                relative_density_of(result.run, m.void_ratio_start),
                relative_density_of(result.run, m.void_ratio_end),
-               judged == RowState::plain    ? dash
+               judged == RowState::plain    ? no_value
                : judged == RowState::agrees ? "yes"
                                             : "no"},
               judged);

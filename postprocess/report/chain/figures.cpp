@@ -10,10 +10,13 @@
 
 namespace drumlin::post {
 
+CurveStyle line_style(Transition transition) {
+  return transition == Transition::A ? CurveStyle::condition_a : CurveStyle::condition_b;
+}
+
 namespace {
 
 constexpr const char *case_names[] = {"I", "II", "III", "IV"};
-constexpr int shown_cycles = 3;
 
 // The report opens with its two figures of largest weight: if the runs allow, with Fig. 5 (case II, where
 // contact is lost) and Fig. 8 (DEM against the reference solution).
@@ -37,9 +40,6 @@ std::string direct_label(const RunResult &result) {
   return transition_name(result.run.transition()) + " direct";
 }
 
-CurveStyle line_style(Transition transition) {
-  return transition == Transition::A ? CurveStyle::condition_a : CurveStyle::condition_b;
-}
 CurveStyle marker_style(Transition transition) {
   return transition == Transition::A ? CurveStyle::direct_a : CurveStyle::direct_b;
 }

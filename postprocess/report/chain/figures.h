@@ -9,6 +9,11 @@
 
 namespace drumlin::post {
 
+/// Cycles that a figure shows of a run, the last ones.
+constexpr int shown_cycles = 3;
+/// The line of a run under a transition.
+CurveStyle line_style(Transition transition);
+
 /// All figures that the runs allow, in order, and those that they do not.
 FigurePlan plan_figures(const ReportResults &results);
 

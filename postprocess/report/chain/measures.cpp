@@ -1,6 +1,7 @@
 #include "report/chain/measures.h"
 
 #include "report/chain/reference_values.h"
+#include "support/constants.h"
 
 #include <algorithm>
 #include <array>
@@ -14,8 +15,6 @@
 namespace drumlin::post {
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t row_at(const std::vector<double> &time, double t) {
   return static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), t) - time.begin());

@@ -21,8 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string dash = no_value;
-
 /// The words that say over how many cycles at the end of the runs the chains were measured.
 std::string measured_words(const ReportResults &results) {
   std::vector<int> counts;
@@ -34,26 +32,28 @@ std::string measured_words(const ReportResults &results) {
 /// A ratio as text; a dash where it is not finite, since its denominator is zero.
 template <class Number>
 std::string finite(const char *format, Number value) {
-  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : dash;
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : no_value;
 }
 
 std::string scientific(double value) { return finite("{:.2e}", value); }
 
 std::string steps_text(const Run &run) {
   if (run.direct) return "adaptive";
-  if (run.kind == RunKind::impact) return run.text("steps_per_contact", dash) + " per contact";
-  return run.steps_per_cycle > 0 ? fmt::format("{}", run.steps_per_cycle) : dash;
+  if (run.kind == RunKind::impact) return run.text("steps_per_contact", no_value) + " per contact";
+  return run.steps_per_cycle > 0 ? fmt::format("{}", run.steps_per_cycle) : no_value;
 }
 
-std::string engine_text(const Run &run) { return run.direct ? "exact solution" : run.text("engine", dash); }
+std::string engine_text(const Run &run) {
+  return run.direct ? "exact solution" : run.text("engine", no_value);
+}
 
 std::string transition_text(const Run &run) {
-  return run.kind == RunKind::unknown ? dash : transition_name(run.transition());
+  return run.kind == RunKind::unknown ? no_value : transition_name(run.transition());
 }
 
 std::string case_text(const Run &run) {
   if (run.kind == RunKind::impact) return fmt::format("impact, D = {:g}", run.impact.damping_ratio);
-  if (run.kind == RunKind::unknown) return dash;
+  if (run.kind == RunKind::unknown) return no_value;
   if (run.case_name.empty()) return "own";
   return run.case_name + (run.at_case ? "" : ", changed");
 }
@@ -68,7 +68,7 @@ RowState state_of_error(const Run &run, double relative) {
 
 /// "0.8600" or "0.8600 to 0.8612".
 std::string range_text(const std::optional<Extremes> &extremes, double scale, int decimals) {
-  if (!extremes) return dash;
+  if (!extremes) return no_value;
   const std::string low = fmt::format("{:.{}f}", extremes->min * scale, decimals);
   const std::string high = fmt::format("{:.{}f}", extremes->max * scale, decimals);
   return low == high ? low : low + " to " + high;
@@ -114,12 +114,12 @@ RunColumns naming(RunColumns further) {
 }
 
 std::string stepping_text(const RunResult &r) {
-  return r.run.direct ? "exact" : r.run.text("stepping", dash);
+  return r.run.direct ? "exact" : r.run.text("stepping", no_value);
 }
 
 /// The text of a parameter that the exact solution has none of.
 std::function<std::string(const RunResult &)> text_of(const char *name) {
-  return [name](const RunResult &r) { return r.run.direct ? dash : r.run.text(name, dash); };
+  return [name](const RunResult &r) { return r.run.direct ? no_value : r.run.text(name, no_value); };
 }
 
 /// What a path of members leads to; those that may be missing are there.
@@ -167,7 +167,7 @@ struct CheckRow {
 };
 
 std::string direct_text(const CheckRow &row) {
-  if (!row.compared()) return dash;
+  if (!row.compared()) return no_value;
   return row.check.measured == "none" && *row.check.direct == 0.0
              ? "none"
              : fmt::format("{:.{}f}", *row.check.direct, decimals_of(row.check.measured));
@@ -180,17 +180,17 @@ const TableColumns<CheckRow> check_columns = {
     {"quantity", [](const CheckRow &r) { return r.check.quantity; }},
     {"unit", [](const CheckRow &r) { return r.check.unit; }},
     {"reference", [](const CheckRow &r) { return r.check.reference; }},
-    {"measured", [](const CheckRow &r) { return r.valued() ? r.check.measured : dash; }},
+    {"measured", [](const CheckRow &r) { return r.valued() ? r.check.measured : no_value; }},
     {"difference",
-     [](const CheckRow &r) { return r.number() ? fmt::format("{:.2g}", r.check.difference) : dash; }},
+     [](const CheckRow &r) { return r.number() ? fmt::format("{:.2g}", r.check.difference) : no_value; }},
     {"relative (-)",
-     [](const CheckRow &r) { return r.number() ? finite("{:.1e}", r.check.relative_difference) : dash; }},
+     [](const CheckRow &r) { return r.number() ? finite("{:.1e}", r.check.relative_difference) : no_value; }},
     {"tolerance", [](const CheckRow &r) { return r.check.tolerance; }},
     {"agrees", [](const CheckRow &r) { return agreement_text(r.check, r.run); }},
     {"direct solution", direct_text},
     {"run minus direct",
      [](const CheckRow &r) {
-       return r.compared() ? fmt::format("{:.1e}", r.check.value - *r.check.direct) : dash;
+       return r.compared() ? fmt::format("{:.1e}", r.check.value - *r.check.direct) : no_value;
      }},
     {"remark", [](const CheckRow &r) { return r.check.note; }},
     {"reference from", [](const CheckRow &r) { return r.check.source; }}};
@@ -212,7 +212,7 @@ PageTable check_table(const char *section, const char *name, const char *title, 
 
 /// "17", "17 (cut)" or "17 (short run)"; a dash for what is no chain.
 std::string cycles_text(const RunResult &r) {
-  if (r.run.kind != RunKind::chain) return dash;
+  if (r.run.kind != RunKind::chain) return no_value;
   return fmt::format("{}{}", r.run.complete,
                      !r.run.cut.empty()                 ? " (cut)"
                      : r.run.complete < long_run_cycles ? " (short run)"
@@ -235,9 +235,9 @@ PageTable runs_table(const ReportResults &results) {
                [&count](const RunResult &) {
                  return count.all > 0          ? fmt::format("{} of {}", count.agree, count.all)
                         : count.not_judged > 0 ? "not judged"
-                                               : dash;
+                                               : no_value;
                }},
-              {"command", [](const RunResult &r) { return r.run.text("command", dash); }}});
+              {"command", [](const RunResult &r) { return r.run.text("command", no_value); }}});
   set_header(table, columns);
   table.shown_columns = 10;
   table.notes.emplace_back(
@@ -267,7 +267,7 @@ PageTable runs_table(const ReportResults &results) {
 
 /// The text of a number of the paired events; a dash if there are none.
 std::string paired(const RunResult &r, const char *format, double value) {
-  return r.chain->match.matched > 0 ? fmt::format(fmt::runtime(format), value) : dash;
+  return r.chain->match.matched > 0 ? fmt::format(fmt::runtime(format), value) : no_value;
 }
 
 /// The range of an event's force or overlap.
@@ -280,7 +280,7 @@ std::string steps_apart(const RunResult &r) {
   const EventMatch &match = r.chain->match;
   return match.matched > 0 && r.run.timestep > 0.0 && !r.run.direct
              ? fmt::format("{:.3g}", match.largest_difference / r.run.timestep)
-             : dash;
+             : no_value;
 }
 
 using Measures = ChainMeasures;
@@ -352,12 +352,12 @@ PageTable meters_table(const ReportResults &results) {
 std::string known_error(const RunResult &r, bool second) {
   const Run &run = r.run;
   const bool comparable = run.at_case && run.chain.transition == Transition::B;
-  if (!comparable && !(second && run.case_name == "I")) return dash;
+  if (!comparable && !(second && run.case_name == "I")) return no_value;
   const ReferenceValue *known =
       reference_value(run.case_name, "B",
                       fmt::format("velocity error at {} steps, {} stepping", run.steps_per_cycle,
                                   second ? "second" : "stock"));
-  return known != nullptr ? scientific(known->low) : dash;
+  return known != nullptr ? scientific(known->low) : no_value;
 }
 
 const RunColumns error_columns = naming(
@@ -367,7 +367,7 @@ const RunColumns error_columns = naming(
      {"last 5 cycles (-)", [](const RunResult &r) { return scientific(r.chain->velocity_error_last); }},
      {"cycles 25 to 30 (-)",
       [](const RunResult &r) {
-        return r.chain->velocity_error_25_to_30 ? scientific(*r.chain->velocity_error_25_to_30) : dash;
+        return r.chain->velocity_error_25_to_30 ? scientific(*r.chain->velocity_error_25_to_30) : no_value;
       }},
      {"known: second-order stepping (-)", [](const RunResult &r) { return known_error(r, true); }},
      {"known: stock stepping (-)", [](const RunResult &r) { return known_error(r, false); }}});

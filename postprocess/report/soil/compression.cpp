@@ -3,6 +3,7 @@
 #include "pages/figure_data.h"
 #include "pages/page.h"
 #include "report/soil/strength_test.h"
+#include "support/constants.h"
 #include "support/csv.h"
 #include "support/statistics.h"
 
@@ -20,8 +21,6 @@ namespace {
 
 using CompressionRun = ElementRun<CompressionRow>;
 using CompressionTest = StrengthTest<CompressionRow>;
-
-constexpr double degree = 180.0 / 3.14159265358979323846;
 
 /// A test named as its CSV file.
 CompressionTest compression_test(const std::string &name) {
@@ -152,8 +151,8 @@ PageFigure line_figure(const CompressionTest &test, const std::vector<SoilGroup>
       const MohrCoulomb line = fit_mohr_coulomb(failures);
       const std::string key = fmt::format("{}; {}: {:.1f}°", soil.short_name(), points, line.angle);
       for (const double sum : {0.0, 1.05 * end})
-        table.row(key,
-                  {sum, line.cohesion * std::cos(line.angle / degree) + sum * std::sin(line.angle / degree)});
+        table.row(key, {sum, line.cohesion * std::cos(line.angle / degrees_per_radian) +
+                                 sum * std::sin(line.angle / degrees_per_radian)});
       panel.curves.push_back(curve(name, key, "$2", "3", line_style(lines++)));
     }
     panel.curves.push_back(

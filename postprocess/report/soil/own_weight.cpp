@@ -2,6 +2,7 @@
 
 #include "pages/figure_data.h"
 #include "report/soil/page_parts.h"
+#include "support/constants.h"
 #include "support/statistics.h"
 
 #include <fmt/format.h>
@@ -20,7 +21,6 @@ namespace {
 
 using OwnWeightRun = ElementRun<OwnWeightRow>;
 
-constexpr double degree = 180.0 / 3.14159265358979323846;
 const std::vector<std::string> of_each_sample = {"weight", "width",
                                                  "height"}; // parameters of the sample, not the soil
 
@@ -240,7 +240,7 @@ PageFigure repose_figure(const std::vector<OwnWeightRun> &runs, const std::vecto
     panel.curves.push_back(curve(name, key, "$2", "3", line_style(n)));
     const Slope &slope = heaps[n].slope;
     for (const double x : {slope.from, slope.to})
-      table.row(line, {x, slope.intercept - x * std::tan(slope.angle / degree)});
+      table.row(line, {x, slope.intercept - x * std::tan(slope.angle / degrees_per_radian)});
     panel.curves.push_back(curve(name, line, "$2", "3", CurveStyle::direct_line));
   }
   return one_panel(

@@ -1,6 +1,7 @@
 #include "report/soil/shear.h"
 
 #include "report/soil/strength_test.h"
+#include "support/constants.h"
 
 #include <cmath>
 
@@ -12,14 +13,12 @@ namespace {
 
 using ShearRun = ElementRun<ShearRow>;
 
-constexpr double degree = 180.0 / 3.14159265358979323846;
-
 const StrengthTest<ShearRow> shear_test = {
     "shear",
     "normal",
     &ShearRow::shear_stress,
     &ShearRow::normal_stress,
-    [](double shear, double normal) { return degree * std::atan(shear / normal); },
+    [](double shear, double normal) { return degrees_per_radian * std::atan(shear / normal); },
     "Samples sheared under a constant normal stress",
     "shear strain",
     "Mobilised friction on the plane of shear",

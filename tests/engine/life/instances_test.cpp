@@ -63,7 +63,7 @@ Outcome run_instances(const Scratch &folder, const std::string &how) {
   const fs::path library = fs::path(LAMMPS_PROGRAM).parent_path() / "liblammps.so.0";
   return run_program({TWO_INSTANCES_PROGRAM, library.string(), DRUMLIN_LAMMPS_PLUGIN,
                       std::string(DRUMLIN_SOURCE_DIR) + "/tests/support/host.lammps", how},
-                     mpi_environment(folder.path()), folder.path(), 60.0);
+                     mpi_environment(folder.path()), folder.path(), 600.0);
 }
 
 TEST(TwoLammpsInstances, EachGivesWhatItGivesAlone) {
@@ -147,7 +147,7 @@ Outcome run_until_interrupted(const std::string &deck, const std::vector<std::st
                              command.environment.end());
   program.folder = folder.path();
   program.output = folder / post::program_output_file;
-  program.limit = 60.0;
+  program.limit = 600.0;
   program.stop_signal = SIGINT;
   program.stop_when = after_processor_time(1.0);
   return run_program(program);

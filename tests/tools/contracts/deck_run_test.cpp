@@ -26,7 +26,7 @@ protected:
         {{scratch_ / "balls.data", post::bed_data(packing, 2650.0, post::pack_balls(packing))}});
   }
   /// "scene: WHY" or "may pass: WHY" of in.settle with some other variables.
-  std::string fault(Variables variables, double limit = 60.0) const {
+  std::string fault(Variables variables, double limit = 600.0) const {
     variables.insert(variables.end(), {{"case", "loose"},
                                        {"balls", (scratch_ / "balls.data").string()},
                                        {"bed", (scratch_ / "soil").string()}});

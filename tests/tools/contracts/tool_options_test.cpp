@@ -378,7 +378,7 @@ TEST_F(ToolOptions, LongWorkShowsProgress) {
                    "300",         "--contacts", "8",       "--out", "o"};
   program.folder = folder_;
   program.output = folder_ / post::program_output_file;
-  program.limit = 60.0;
+  program.limit = 600.0;
   // One line of progress is enough: run_program() stops the program when this function throws.
   program.line = [](const std::string &line) {
     if (line.rfind("solved to cycle ", 0) == 0) throw std::runtime_error(line);

@@ -32,7 +32,7 @@ Program shell(const Scratch &scratch, const std::string &line) {
   program.words = {"sh", "-c", line};
   program.folder = scratch.path();
   program.output = scratch / "text";
-  program.limit = 60.0;
+  program.limit = 600.0;
   return program;
 }
 
