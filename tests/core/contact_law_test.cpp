@@ -1,18 +1,31 @@
-/// The contact laws instant by instant: what all have in common; of the linear law closed forms, definitions
-/// and identities. Whole impacts are in law_impact_test.
-
-#include "physics/laws/laws.h"
+// What all contact laws share: their values in an instant, mixing, suction, and values that are not allowed.
 #include "tests/core/vectors.h"
+#include "tests/core/velocity_verlet.h"
+
+#include "physics/bodies/absorbing_boundary.h"
+#include "physics/bodies/bond_law.h"
+#include "physics/bodies/excitation.h"
+#include "physics/laws/contact_mixing.h"
+#include "physics/laws/hertz_contact.h"
+#include "physics/laws/laws.h"
+#include "physics/laws/linear_contact.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
 
 namespace {
 
 using namespace drumlin::physics;
+
+// The contact laws instant by instant: what all have in common; of the linear law closed forms, definitions
+// and identities. Whole impacts are in law_impact_test.
+namespace law {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -177,5 +190,215 @@ TEST(EffectiveMass, OfAFixedPartnerIsTheOtherBallsMass) {
   EXPECT_EQ(effective_mass(2000.0, infinity), 2000.0);
   EXPECT_EQ(effective_mass(infinity, 2000.0), 2000.0);
 }
+
+} // namespace law
+
+// Contacts of two materials: the series of two springs as the state of least energy, found by a library, and
+// the limits of the rule.
+namespace mixing {
+
+using namespace drumlin;
+using namespace drumlin::test;
+
+using physics::ContactValues;
+using physics::mixed;
+
+/// Force, N, of two springs in series that are compressed by 1 m together: the compression of the first one
+/// is that of least energy.
+double force_of_series(double first, double second) {
+  const auto energy = [&](double x) { return 0.5 * first * x * x + 0.5 * second * (1.0 - x) * (1.0 - x); };
+  const double x = boost::math::tools::brent_find_minima(energy, 0.0, 1.0, 60).first;
+  return first * x;
+}
+
+TEST(ContactMixing, StiffnessIsThatOfTheSpringsOfBothBallsInSeries) {
+  for (const double a : {1e6, 3e7, 1e9})
+    for (const double b : {1e6, 2e8}) {
+      // A contact with itself is two springs in series, too: each is twice as stiff.
+      const double k = mixed({a, 0.0, 0.0, 0.0}, {b, 0.0, 0.0, 0.0}).stiffness;
+      EXPECT_NEAR(k, force_of_series(2.0 * a, 2.0 * b), 1e-6 * k) << a << ", " << b;
+    }
+  EXPECT_NEAR(mixed({1e8, 0.0, 0.0, 0.0}, {1e300, 0.0, 0.0, 0.0}).stiffness, 2e8, 1e-4); // on a rigid ball
+}
+
+TEST(ContactMixing, TakesTheLesserFrictionAndTheMeanDampingInEitherOrder) {
+  const ContactValues rough = {1e9, 0.3, 0.8, 0.1}, smooth = {1e8, 0.1, 0.5, 0.45};
+  for (const ContactValues &values : {mixed(rough, smooth), mixed(smooth, rough)}) {
+    EXPECT_EQ(values.friction, 0.5);
+    EXPECT_EQ(values.rolling, 0.1);
+    EXPECT_NEAR(values.damping_ratio, 0.2, 1e-15);
+  }
+}
+
+TEST(ContactMixing, OfOneMaterialIsTheMaterial) {
+  const ContactValues values = mixed({3e8, 0.3, 0.7, 0.2}, {3e8, 0.3, 0.7, 0.2});
+  EXPECT_NEAR(values.stiffness, 3e8, 1e-7);
+  EXPECT_NEAR(values.damping_ratio, 0.3, 1e-16);
+  EXPECT_EQ(values.friction, 0.7);
+  EXPECT_EQ(values.rolling, 0.2);
+}
+
+} // namespace mixing
+
+// Suction, a constant attraction of balls that touch: long runs and rest, under both schemes. Impacts with
+// suction, of every law, are in law_impact_test.
+namespace suction {
+
+using verlet::Scheme;
+
+constexpr double k = 1e8, m = 2000.0;
+const double w0 = std::sqrt(k / m);
+double coefficient(double D) { return 2.0 * D * std::sqrt(m * k); }
+
+/// A ball that has been at rest at an overlap, and some steps later.
+template <class Law>
+verlet::Ball<Law> after(const Law &law, double suction, double force, double overlap, Scheme scheme,
+                        int steps) {
+  verlet::Ball<Law> ball(m, -overlap, 0.0, 0.1 / w0, {{0.0, 1.0, law, suction}}, force, scheme);
+  for (int n = 0; n < steps; ++n)
+    ball.step();
+  return ball;
+}
+
+// 300 bounces of a ball under its weight: the energy of the flight is that of the beginning.
+TEST(Suction, KeepsTheEnergyOfABouncingBall) {
+  const double dt = M_PI / (w0 * 100.0), weight = 9.81 * m, suction = 0.1 * std::sqrt(k * m);
+  verlet::Ball<LinearLaw> ball(m, 0.001, 0.0, dt, {{0.0, 1.0, {k, 0.0, Transition::B}, suction}}, -weight);
+  const double begin = weight * 0.001;
+  double worst = 0.0, work = 0.0;
+  int bounces = 0;
+  bool apart = true;
+  for (int n = 0; n < 10000000 && bounces < 300; ++n) {
+    ball.step();
+    const double d = std::max(0.0, -ball.x);
+    worst = std::max(worst, std::fabs(0.5 * m * ball.v * ball.v + weight * ball.x + 0.5 * k * d * d -
+                                      suction * d - begin));
+    if (apart && d > 0.0) {
+      ++bounces;
+      work += begin;
+    }
+    apart = d == 0.0;
+  }
+  EXPECT_EQ(bounces, 300);
+  EXPECT_LT(worst, 1e-3 * work);
+}
+
+/// A pair that sticks, after 10^6 steps: with a dashpot it has come to rest, without one it still swings
+/// about the place of rest. \param place of rest, m
+template <class Law>
+void expect_sticking(const Law &damped, const Law &undamped, double suction, double place) {
+  for (const Scheme scheme : {Scheme::second, Scheme::stock}) {
+    const auto rest = after(damped, suction, 0.0, 1.5 * place, scheme, 1000000);
+    EXPECT_NEAR(-rest.x, place, 1e-12 * place);
+    EXPECT_NEAR(rest.v, 0.0, 1e-12 * w0 * place);
+    const auto swings = after(undamped, suction, 0.0, 1.2 * place, scheme, 1000000);
+    const double begin = after(undamped, suction, 0.0, 1.2 * place, scheme, 0).energy();
+    EXPECT_NEAR(swings.energy(), begin, 1e-2 * (begin - rest.energy()));
+  }
+}
+
+TEST(Suction, NeitherMovesNorHeatsAStickingPair) {
+  const double suction = 1e5;
+  for (const Transition transition : {Transition::A, Transition::B}) {
+    expect_sticking<LinearLaw>({k, coefficient(0.3), transition}, {k, 0.0, transition}, suction, suction / k);
+    const double hertz = 1e10; // a slope of 1.5e8 N/m at 1e-4 m
+    expect_sticking<HertzLaw>({hertz, coefficient(0.3), transition}, {hertz, 0.0, transition}, suction,
+                              std::pow(suction / hertz, 2.0 / 3.0));
+  }
+}
+
+TEST(Suction, IsTheForceThatPullsABallOff) {
+  const double suction = 1e4;
+  for (const double share : {0.99, 1.01}) {
+    const double place = (1.0 - share) * suction / k;
+    const auto end = after(LinearLaw(k, coefficient(0.3), Transition::B), suction, share * suction,
+                           std::fabs(place), Scheme::second, 20000);
+    if (share < 1.0) {
+      EXPECT_NEAR(-end.x, place, 1e-9 * suction / k);
+    } else {
+      EXPECT_GT(end.x, 100.0 * suction / k);
+    }
+  }
+}
+
+} // namespace suction
+
+// Values that are not allowed, each with its message: the name, the value, what is allowed.
+namespace checks {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+/// The message for a good set of parameters in which one is changed.
+template <class Parameters>
+std::string fault(Parameters set, double Parameters::*member, double value) {
+  EXPECT_EQ(set.invalid(), "");
+  set.*member = value;
+  return set.invalid();
+}
+
+TEST(ParameterChecks, OfABond) {
+  const Bond bond{1e6, 1e4, 0.5};
+  EXPECT_EQ(fault(bond, &Bond::stiffness, 0.0), "stiffness is '0 N/m'; allowed: finite and > 0");
+  EXPECT_EQ(fault(bond, &Bond::stiffness, infinity), "stiffness is 'inf N/m'; allowed: finite and > 0");
+  EXPECT_EQ(fault(bond, &Bond::damping, -0.1), "damping is '-0.1 N s/m'; allowed: finite and >= 0");
+  EXPECT_EQ(fault(bond, &Bond::length, -nan_value), "length is 'nan m'; allowed: finite and >= 0");
+  EXPECT_EQ(fault(bond, &Bond::strength, 0.0), "strength is '0 N'; allowed: > 0, may be infinite");
+  EXPECT_EQ(fault(bond, &Bond::damping, 0.0), "");
+  EXPECT_EQ(fault(bond, &Bond::strength, 1e-300), "");
+}
+
+TEST(ParameterChecks, OfAnExcitationLeaveOutWhatIsNotUsed) {
+  Excitation e;
+  EXPECT_EQ(fault(e, &Excitation::amplitude, -1.0), "amplitude is '-1 N'; allowed: finite and >= 0");
+  EXPECT_EQ(fault(e, &Excitation::angular_frequency, infinity),
+            "angular frequency is 'inf rad/s'; allowed: finite and >= 0");
+  EXPECT_EQ(fault(e, &Excitation::phase, -infinity), "phase is '-inf rad'; allowed: finite");
+  EXPECT_EQ(fault(e, &Excitation::start, nan_value), "start is 'nan s'; allowed: finite");
+  EXPECT_EQ(fault(e, &Excitation::start, -5.0), "");
+  EXPECT_EQ(fault(e, &Excitation::ramp, -1.0), "ramp is '-1 s'; allowed: finite and >= 0");
+  EXPECT_EQ(fault(e, &Excitation::sweep_duration, -1.0),
+            "sweep duration is '-1 s'; allowed: finite and >= 0");
+  EXPECT_EQ(fault(e, &Excitation::sweep_frequency, -1.0), "");
+  EXPECT_EQ(fault(e, &Excitation::eccentric_mass, -1.0), "");
+  e.sweep_duration = 2.0;
+  EXPECT_EQ(fault(e, &Excitation::sweep_frequency, -1.0),
+            "sweep frequency is '-1 rad/s'; allowed: finite and >= 0");
+  e.eccentric = true;
+  e.eccentric_mass = e.eccentric_radius = 1.0;
+  EXPECT_EQ(fault(e, &Excitation::amplitude, nan_value), "");
+  EXPECT_EQ(fault(e, &Excitation::eccentric_mass, 0.0), "eccentric mass is '0 kg'; allowed: finite and > 0");
+  EXPECT_EQ(fault(e, &Excitation::eccentric_radius, 0.0),
+            "eccentric radius is '0 m'; allowed: finite and > 0");
+}
+
+TEST(ParameterChecks, OfAnAbsorbingBoundary) {
+  const Ground ground{1800.0, 300.0, 170.0, 2.5, 0.4};
+  EXPECT_EQ(fault(ground, &Ground::density, 0.0), "density is '0 kg/m3'; allowed: finite and > 0");
+  EXPECT_EQ(fault(ground, &Ground::p_speed, -1.0),
+            "speed of compression waves is '-1 m/s'; allowed: finite and > 0");
+  EXPECT_EQ(fault(ground, &Ground::s_speed, -1.0),
+            "speed of shear waves is '-1 m/s'; allowed: finite and >= 0");
+  EXPECT_EQ(fault(ground, &Ground::s_speed, 301.0),
+            "speed of shear waves is '301 m/s'; allowed: at most that of compression waves, 300 m/s");
+  EXPECT_EQ(fault(ground, &Ground::depth, 0.0), "depth is '0 m'; allowed: > 0, may be infinite");
+  EXPECT_EQ(fault(ground, &Ground::area, nan_value), "area is 'nan m2'; allowed: finite and > 0");
+}
+
+TEST(ParameterChecks, OfARange) {
+  for (const double value : {nan_value, infinity, -infinity})
+    EXPECT_FALSE(Range::any.contains(value));
+  EXPECT_TRUE(Range::any.contains(-1e300));
+  EXPECT_FALSE(Range::positive.contains(0.0));
+  EXPECT_TRUE(Range::non_negative.contains(0.0));
+  EXPECT_FALSE(Range::non_negative.contains(-1e-300));
+  const Range share{-1.0, true, 0.5};
+  EXPECT_TRUE(share.contains(0.5));
+  EXPECT_FALSE(share.contains(-1.0));
+  EXPECT_EQ(detail::text_of(share), "a finite number > -1 and <= 0.5");
+  EXPECT_EQ(detail::text_of(Range::any), "a finite number");
+}
+
+} // namespace checks
 
 } // namespace

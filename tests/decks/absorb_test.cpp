@@ -1,5 +1,5 @@
 // fix boundary/absorb in both engines: waves on a chain and on a hexagonal lattice, of which the boundary
-// reflects the share of closed forms; settlement; energy balance; ranks and restart.
+// reflects the share of closed forms; settlement; energy balance; balls on its springs.
 #include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
 #include "tests/support/oscillator.h"
@@ -60,12 +60,6 @@ void write_fixes(const Scratch &folder, const std::string &lines, const std::str
                                   << work << "\nvariable shift equal " << shift << "\n";
 }
 
-Outcome run_scene(const std::string &engine, const Scratch &folder, const Variables &variables,
-                  int ranks = 1) {
-  return run_deck(test_deck(engine == "lammps" ? "absorb.lammps" : "absorb.in"), variables, folder.path(),
-                  ranks);
-}
-
 /// A harmonic wave on rows of mass m a period, which stiffnesses k connect: w = 2 sqrt(k/m) sin(theta/2),
 /// with the phase theta from row to row. The row at the end also has a dashpot c and a spring K.
 struct Wave {
@@ -113,12 +107,7 @@ Complex amplitude(const std::vector<Frame> &frames, long id, std::size_t axis, i
 
 class Absorb : public BothEngines {
 protected:
-  static const std::string &engine() { return std::get<0>(GetParam()); }
   static bool second() { return std::get<1>(GetParam()) == "second"; }
-  static Variables with_stepping(Variables variables) {
-    variables.emplace_back("stepping", std::get<1>(GetParam()));
-    return variables;
-  }
 };
 
 /// A chain with a boundary below, and the frequency that comes from above as a multiple of the lowest one.
@@ -180,12 +169,13 @@ ChainsRun run_chains(const std::string &engine, const std::string &stepping) {
   }
   write_balls(folder, {d * 2 * count, 0.1, d * (length + 2)}, balls);
   write_fixes(folder, lines + rigid);
-  well(run_scene(engine, folder,
+  well(run_scene(engine, "absorb",
                  {{"stepping", stepping},
                   {"dt", number(dt)},
                   {"steps", std::to_string(cycles * per_period)},
                   {"every", std::to_string(per_period / samples)},
-                  {"rows", std::to_string(cycles * per_period)}}));
+                  {"rows", std::to_string(cycles * per_period)}},
+                 folder.path()));
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   for (std::size_t c = 0; c < chains().size(); ++c) {
     std::vector<Complex> rows;
@@ -254,11 +244,11 @@ TEST_P(Absorb, ReflectsPlaneWavesOfCompressionAndShearOnAHexagonalLattice) {
                           boundary("top", high, false, area, density, cp, cs, no_layer, true) +
                           "fix shake_z top" + shake + " direction 0 0 1\nfix shake_x top" + shake +
                           " direction 1 0 0\n");
-  well(run_scene(engine(), folder,
-                 with_stepping({{"dt", number(dt)},
-                                {"steps", std::to_string(cycles * per_period)},
-                                {"every", std::to_string(per_period / samples)},
-                                {"rows", std::to_string(cycles * per_period)}})));
+  well(run("absorb", folder,
+           {{"dt", number(dt)},
+            {"steps", std::to_string(cycles * per_period)},
+            {"every", std::to_string(per_period / samples)},
+            {"rows", std::to_string(cycles * per_period)}}));
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   for (const bool shear : {false, true}) {
     const double speed = shear ? cs : cp;
@@ -300,12 +290,12 @@ TEST_P(Absorb, SettlesUnderALoadAsTheLayerDoes) {
               "fix g all gravity " + number(g) + " vector 0 0 -1\n" +
                   boundary("floor", "1", true, 1, density, cp, 0, H, false),
               "f_floor[1]+f_floor[2]", "f_floor[3]", "f_floor[7]");
-  well(run_scene(engine(), folder,
-                 with_stepping({{"dt", "1e-5"},
-                                {"D", "0.1"},
-                                {"steps", "10000"},
-                                {"every", std::to_string(every)},
-                                {"rows", std::to_string(every)}})));
+  well(run("absorb", folder,
+           {{"dt", "1e-5"},
+            {"D", "0.1"},
+            {"steps", "10000"},
+            {"every", std::to_string(every)},
+            {"rows", std::to_string(every)}}));
   const std::vector<EnergyRow> rows = energy_rows(folder);
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   ASSERT_EQ(rows.size() + 1, frames.size());
@@ -342,10 +332,9 @@ TEST_P(Absorb, KeepsTheStaticReactionAndBalancesTheEnergyOfAPulse) {
               boundary("floor", "1", true, 1, density, cp, 0, 0.1, true) +
                   boundary("top", std::to_string(length), false, 1, density, cp, 0, no_layer, true),
               "f_floor[1]+f_floor[2]+f_top[1]+f_top[2]", "f_floor[3]+f_top[3]", "f_top[6]");
-  well(run_scene(engine(), folder,
-                 second()
-                     ? with_stepping({{"dt", number(0.05 * tau)}, {"steps", "10000"}, {"rows", "20"}})
-                     : with_stepping({{"dt", number(0.025 * tau)}, {"steps", "20000"}, {"rows", "40"}})));
+  well(run("absorb", folder,
+           second() ? Variables{{"dt", number(0.05 * tau)}, {"steps", "10000"}, {"rows", "20"}}
+                    : Variables{{"dt", number(0.025 * tau)}, {"steps", "20000"}, {"rows", "40"}}));
   const std::vector<EnergyRow> rows = energy_rows(folder);
   ASSERT_EQ(rows.size(), 500u);
   double error = 0, most_work = 0;
@@ -360,65 +349,22 @@ TEST_P(Absorb, KeepsTheStaticReactionAndBalancesTheEnergyOfAPulse) {
   EXPECT_NEAR(rows.back().shift, -k * pressed * d, 1e-6 * k * pressed * d); // the force on the upper end
 }
 
-INSTANTIATE_TEST_SUITE_P(Decks, Absorb, engines_and_steppings(), engine_and_stepping);
-
-// Balls on soft springs that cross the borders between ranks and that of the periodic box, and two that touch
-// and keep their reaction.
-class AbsorbOfBallsThatMove : public ::testing::TestWithParam<std::tuple<std::string, int>> {
-protected:
-  void SetUp() override {
-    if (engine() == "lammps" && !post::has_lammps())
-      GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  }
-  static std::string engine() { return std::get<0>(GetParam()); }
-
-  static constexpr double density = 0.2, cp = 10, cs = 5, H = 8e-4, vx = 2.5, vz = 4.5;
-  static std::vector<Placed> balls() {
-    std::vector<Placed> all;
-    for (int n = 1; n <= 7; ++n)
-      all.push_back({{0.01, 0.05, 0.15 * n + 0.005}, {-vx, 0, vz}});
-    all.push_back({{0.1, 0.05, 0.59}, {}}); // the pair, at the middle of the box
-    all.push_back({{0.1, 0.05, 0.59 + d - 1e-4}, {0, 0, 0.02}});
-    return all;
-  }
-  static void prepare(const Scratch &folder) {
-    write_balls(folder, {0.2, 0.1, 1.2}, balls());
-    write_fixes(folder, "fix ground all boundary/absorb normal 0 0 -1 area 9 density " + number(density) +
-                            " speeds " + number(cp) + " " + number(cs) + " depth " + number(H) +
-                            " static yes\n");
-  }
-  static std::vector<Frame> run(const Scratch &folder, const std::string &steps, const std::string &after,
-                                bool restarted, int ranks) {
-    well(run_scene(engine(), folder,
-                   {{"dt", "2e-5"},
-                    {"steps", steps},
-                    {"after", after},
-                    {"every", "500"},
-                    {"rows", "10000"},
-                    {"restart", restarted ? "1" : "0"}},
-                   ranks));
-    return read_dump(folder / "balls.txt");
-  }
-};
-
-void expect_equal(const Frame &found, const Frame &expected) {
-  ASSERT_EQ(found.step, expected.step);
-  for (const auto &[id, ball] : expected.balls) {
-    EXPECT_EQ(found.balls.at(id).x, ball.x) << id;
-    EXPECT_EQ(found.balls.at(id).v, ball.v) << id;
-    EXPECT_EQ(found.balls.at(id).f, ball.f) << id;
-  }
-}
-
-TEST_P(AbsorbOfBallsThatMove, FollowTheOscillatorAndContinueFromARestartBitwise) {
-  const int ranks = std::get<1>(GetParam());
-  const Scratch folder, resumed, serial;
-  prepare(folder);
-  const std::vector<Frame> whole = run(folder, "1500", "1500", false, ranks);
+// Balls on soft springs that cross the borders of the periodic box, and two that touch and keep their
+// reaction.
+TEST_P(Absorb, BallsThatMoveFollowTheOscillator) {
+  if (!second()) return;                                                         // of first order
+  constexpr double density = 0.2, cp = 10, cs = 5, H = 8e-4, vx = 2.5, vz = 4.5; // of absorb.moving
+  const Scratch folder;
+  well(run("absorb", folder,
+           {{"data", test_deck("absorb.moving.data").string()},
+            {"fixes", test_deck("absorb.moving").string()},
+            {"dt", "2e-5"},
+            {"steps", "3000"},
+            {"every", "3000"}}));
+  const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   const double w = std::sqrt(density * cp * cp / H / m), time = 3000 * 2e-5;
-  for (int n = 0; n < 7; ++n) {
-    const Placed start = balls()[static_cast<std::size_t>(n)];
-    const Ball &ball = whole.back().balls.at(n + 1);
+  for (long n = 1; n <= 7; ++n) {
+    const Ball &start = frames.front().balls.at(n), &ball = frames.back().balls.at(n);
     const auto motion = [&](double speed, double v0) {
       return oracle::Oscillator{m, density * speed * speed / H, density * speed}.at(time, 0, v0).x;
     };
@@ -427,23 +373,9 @@ TEST_P(AbsorbOfBallsThatMove, FollowTheOscillatorAndContinueFromARestartBitwise)
         std::remainder(ball.x[0] - start.x[0] - motion(cs, -vx), 0.2); // of the periodic box
     EXPECT_NEAR(across, 0, 1e-5 * vx / w) << n;
   }
-  prepare(resumed);
-  std::filesystem::copy(folder / "restart", resumed / "restart");
-  expect_equal(run(resumed, "1500", "0", true, ranks).back(), whole.back());
-  if (ranks == 1) return;
-  prepare(serial);
-  expect_equal(run(serial, "1500", "1500", false, 1).back(), whole.back());
 }
 
-std::string engine_and_ranks(const ::testing::TestParamInfo<std::tuple<std::string, int>> &test) {
-  return std::get<0>(test.param) + "_" + std::to_string(std::get<1>(test.param));
-}
-INSTANTIATE_TEST_SUITE_P(One, AbsorbOfBallsThatMove,
-                         ::testing::Combine(::testing::Values("liggghts", "lammps"), ::testing::Values(1)),
-                         engine_and_ranks);
-INSTANTIATE_TEST_SUITE_P(Ranks, AbsorbOfBallsThatMove,
-                         ::testing::Combine(::testing::Values("liggghts", "lammps"), ::testing::Values(2)),
-                         engine_and_ranks);
+INSTANTIATE_TEST_SUITE_P(Decks, Absorb, engines_and_steppings(), engine_and_stepping);
 
 } // namespace
 } // namespace drumlin::test

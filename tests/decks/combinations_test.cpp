@@ -1,8 +1,7 @@
 // All combinations of tangential and rolling models that the plugin supports, between balls, on primitive
-// planes and on a mesh: they run, stay finite, keep the balls in the box, dissipate energy, and agree on 1
-// and 2 ranks.
-#include "tests/support/balls_run.h"
+// planes and on a mesh: they run, stay finite, keep the balls in the box and dissipate energy.
 #include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
 
 #include "bed/dump_readers.h"
 
@@ -26,14 +25,12 @@ struct Combination {
 
 void PrintTo(const Combination &value, std::ostream *out) { *out << value.words(); }
 
-std::vector<Frame> run_box(const Combination &models, const char *transition, const char *stepping,
-                           int ranks) {
+std::vector<Frame> run_box(const Combination &models, const char *transition, const char *stepping) {
   const Scratch scratch;
-  write_floor(scratch / "floor.stl", 0.3, false);
-  const Outcome outcome = well(run_deck(
-      test_deck("box.in"), {{"models", models.words()}, {"transition", transition}, {"stepping", stepping}},
-      scratch.path(), ranks));
-  return outcome.ok() ? read_dump(scratch / "state.dump") : std::vector<Frame>{};
+  well(run_scene("liggghts", "box",
+                 {{"models", models.words()}, {"transition", transition}, {"stepping", stepping}},
+                 scratch.path()));
+  return read_dump(scratch / "balls.txt");
 }
 
 constexpr double mass = 0.16, radius = 0.025, g = 9.81;
@@ -53,7 +50,7 @@ class Combinations : public ::testing::TestWithParam<Combination> {};
 TEST_P(Combinations, RunAndDissipateEnergy) {
   for (const char *transition : {"A", "B"}) {
     for (const char *stepping : {"second", "stock"}) {
-      const std::vector<Frame> frames = run_box(GetParam(), transition, stepping, 1);
+      const std::vector<Frame> frames = run_box(GetParam(), transition, stepping);
       ASSERT_EQ(frames.size(), 5u);
       const Frame &end = frames.back();
       ASSERT_EQ(end.balls.size(), 50u);
@@ -77,12 +74,11 @@ TEST_P(Combinations, RunAndDissipateEnergy) {
 
 TEST(MeshFloor, RowsOfContactsExplainTheForceOnEachBall) {
   const Scratch scratch;
-  write_floor(scratch / "floor.stl", 0.3, false);
-  well(run_deck(test_deck("box.in"),
-                {{"models", "tangential history"}, {"stepping", "stock"}, {"every", "20"}}, scratch.path()));
+  well(run_scene("liggghts", "box",
+                 {{"models", "tangential history"}, {"stepping", "stock"}, {"every", "20"}}, scratch.path()));
   int on_floor = 0;
   double worst = 0, largest = 0;
-  for (const Frame &frame : read_dump(scratch / "state.dump")) {
+  for (const Frame &frame : read_dump(scratch / "balls.txt")) {
     std::map<long, std::array<double, 3>> rest;
     for (const auto &[id, ball] : frame.balls)
       rest[id] = {ball.f[0], ball.f[1], ball.f[2] + mass * g};
@@ -107,43 +103,12 @@ TEST(MeshFloor, RowsOfContactsExplainTheForceOnEachBall) {
   EXPECT_LT(worst, 1e-12 * largest);
 }
 
-/// The engine numbers the balls rank by rank: by where they start, then.
-std::map<std::array<double, 3>, Ball> by_start(const std::vector<Frame> &frames) {
-  std::map<std::array<double, 3>, Ball> balls;
-  for (const auto &[id, ball] : frames.back().balls)
-    balls[frames.front().balls.at(id).x] = ball;
-  return balls;
-}
-
-class CombinationsOnRanks : public ::testing::TestWithParam<Combination> {};
-
-TEST_P(CombinationsOnRanks, AgreeWithOne) {
-  for (const char *transition : {"A", "B"}) {
-    const std::vector<Frame> one = run_box(GetParam(), transition, "second", 1),
-                             two = run_box(GetParam(), transition, "second", 2);
-    ASSERT_FALSE(one.empty() || two.empty());
-    const auto expected = by_start(one), found = by_start(two);
-    ASSERT_EQ(expected.size(), 50u);
-    double worst_x = 0, worst_spin = 0;
-    for (const auto &[start, ball] : expected)
-      for (std::size_t a = 0; a < 3; ++a) {
-        worst_x = std::max(worst_x, std::fabs(found.at(start).x[a] - ball.x[a]));
-        worst_spin = std::max(worst_spin, std::fabs(found.at(start).omega[a] - ball.omega[a]));
-      }
-    EXPECT_LT(worst_x, 1e-10 * radius) << transition;
-    EXPECT_LT(worst_spin, 1e-8 * 20) << transition;
-    RecordProperty(std::string("worst_x_") + transition, number(worst_x));
-    RecordProperty(std::string("worst_spin_") + transition, number(worst_spin));
-  }
-}
-
 const Combination combinations[] = {{"off", "off"},       {"off", "epsd2"},   {"history", "off"},
                                     {"history", "epsd2"}, {"coulomb", "off"}, {"coulomb", "epsd2"}};
 std::string name_of(const ::testing::TestParamInfo<Combination> &test) {
   return test.param.tangential + "_" + test.param.rolling;
 }
 INSTANTIATE_TEST_SUITE_P(Models, Combinations, ::testing::ValuesIn(combinations), name_of);
-INSTANTIATE_TEST_SUITE_P(Models, CombinationsOnRanks, ::testing::ValuesIn(combinations), name_of);
 
 } // namespace
 } // namespace drumlin::test

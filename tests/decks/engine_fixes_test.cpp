@@ -53,8 +53,7 @@ protected:
   static Result run_pair_with(const std::string &stepping, Variables variables, int ranks = 1) {
     const Scratch folder;
     variables.emplace_back("stepping", stepping);
-    well(run_deck(test_deck(std::get<0>(GetParam()) == "lammps" ? "pair.lammps" : "pair.in"), variables,
-                  folder.path(), ranks));
+    well(run_scene(std::get<0>(GetParam()), "pair", variables, folder.path(), ranks));
     const std::vector<double> heat = last_row(folder / "heat.txt");
     const post::Table drum = post::read_table(folder / "history.csv");
     return {read_dump(folder / "balls.txt"),
@@ -297,7 +296,7 @@ TEST_P(EngineFixes, GroundOfABoxThatDeformsIsRefused) {
 
 TEST(EngineFixesInLiggghts, TriclinicBoxIsRefused) {
   const Scratch folder;
-  EXPECT_TRUE(fails_with(run_deck(test_deck("pair.in"), {{"box", "prism 0 1 0 1 0 1 0 0 0"}}, folder.path()),
+  EXPECT_TRUE(fails_with(run_scene("liggghts", "pair", {{"box", "prism 0 1 0 1 0 1 0 0 0"}}, folder.path()),
                          "the box is triclinic"));
 }
 

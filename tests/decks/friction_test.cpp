@@ -380,42 +380,6 @@ TEST_P(EnergyBalanceOfASlidingBall, ClosesWithDashpotsUnderCoulomb) {
   EXPECT_GT(heat.back(), 0.2 * kinetic.front());
 }
 
-// Their order in memory decides which of two balls is the first of a contact: when it changes, the spring
-// turns round.
-TEST(Coulomb, HistoryIsKeptWhenTheOrderOfBallsChanges) {
-  std::vector<std::vector<Frame>> frames;
-  for (const char *shuffle : {"0", "50"}) {
-    const Scratch folder;
-    const Outcome outcome =
-        run_deck(test_deck("bounce.in"),
-                 {{"tangential", "coulomb"}, {"rolling", "epsd2"}, {"shuffle", shuffle}}, folder.path());
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
-    frames.push_back(read_dump(folder / "balls.txt"));
-  }
-  for (const auto &[id, ball] : frames[0].back().balls)
-    for (std::size_t a = 0; a < 3; ++a)
-      EXPECT_NEAR(frames[1].back().balls.at(id).x[a], ball.x[a], 1e-9) << "ball " << id;
-}
-
-TEST(Coulomb, ContinuesFromARestartFileBitwiseOnSeveralRanks) {
-  for (int ranks = 1; ranks <= most_ranks(); ranks *= 2)
-    for (const char *stepping : {"second", "stock"}) {
-      const Scratch stayed, left;
-      Variables law = {{"tangential", "coulomb"}, {"rolling", "epsd2"}, {"stepping", stepping}};
-      const Outcome whole = run_deck(test_deck("bounce.in"), law, stayed.path(), ranks);
-      ASSERT_TRUE(whole.ok()) << whole.output;
-      law.emplace_back("start", (stayed / "first.restart").string());
-      const Outcome resumed = run_deck(test_deck("bounce.resume.in"), law, left.path(), ranks);
-      ASSERT_TRUE(resumed.ok()) << resumed.output;
-      const std::string all = read_text(stayed / "balls.txt"), second = read_text(left / "balls.txt"),
-                        row = "ITEM: TIMESTEP\n7000\n";
-      ASSERT_NE(all.find(row), std::string::npos);
-      ASSERT_NE(second.find(row), std::string::npos);
-      EXPECT_EQ(all.substr(all.find(row)), second.substr(second.find(row)))
-          << stepping << ", ranks " << ranks;
-    }
-}
-
 class ObliqueImpacts : public BothEngines {
 protected:
   /// Tangential over mu times normal impulse of the balls of oblique.scene, by ID.

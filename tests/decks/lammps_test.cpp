@@ -1,6 +1,5 @@
-// LAMMPS against LIGGGHTS: the same fixes and laws in both, with another pair style, other walls and another
-// contact history. The allowed difference is rounding, and its growth in scenes whose motion is sensitive to
-// it.
+// What LAMMPS alone has: faces of regions, data files, partitions, suffixes, rigid bodies, compute
+// pair/local. That it gives the results of LIGGGHTS is a matter of the table `invariances`.
 #include "tests/support/chain_by_cvode.h"
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
@@ -34,178 +33,17 @@ protected:
   }
 };
 
-struct Chain {
-  const char *name;
-  post::Transition transition;
-  const char *stepping;
-};
-
-void PrintTo(const Chain &chain, std::ostream *out) {
-  *out << chain.name << post::transition_name(chain.transition) << chain.stepping;
-}
-
-class InLammpsChain : public InLammps, public ::testing::WithParamInterface<Chain> {};
-
-std::string chain_name(const ::testing::TestParamInfo<Chain> &info) {
-  return info.param.name + post::transition_name(info.param.transition) + "_" + info.param.stepping;
-}
-
-TEST_P(InLammpsChain, IsThatOfLiggghtsAndFollowsTheDirectSolver) {
-  const Variables variables = {{"case", GetParam().name},
-                               {"transition", post::transition_name(GetParam().transition)},
-                               {"stepping", GetParam().stepping},
-                               {"cycles", "30"}};
-  const Scratch lammps, liggghts;
-  well(run_deck(chain_deck("in.chain.lammps"), variables, lammps.path()));
-  well(run_deck(chain_deck("in.chain"), variables, liggghts.path()));
-  const ChainRun a = read_run(lammps.path()), b = read_run(liggghts.path());
-  for (const auto column :
-       {&post::ChainHistory::x_drum, &post::ChainHistory::v_drum, &post::ChainHistory::a_drum,
-        &post::ChainHistory::x_frame, &post::ChainHistory::v_frame, &post::ChainHistory::a_frame,
-        &post::ChainHistory::F_contact, &post::ChainHistory::F_bond})
-    EXPECT_LT(relative_difference(a.history.*column, b.history.*column), 1e-9);
-  EXPECT_EQ(a.history.F_excitation, b.history.F_excitation);
-  ASSERT_EQ(a.events.size(), b.events.size());
-  for (std::size_t n = 0; n < a.events.size(); ++n) {
-    EXPECT_EQ(a.events[n].make, b.events[n].make) << "event " << n;
-    EXPECT_NEAR(a.events[n].time, b.events[n].time, 1e-9 * b.events[n].time) << "event " << n;
-  }
-
-  const post::ChainParameters p = post::table1_case(GetParam().name, GetParam().transition);
-  post::ExactOptions options;
-  options.cycles = 30;
-  options.samples_per_cycle = 200;
-  const post::ChainHistory reference = drumlin::test::solve_by_cvode(p, options).history;
-  ASSERT_EQ(a.history.size(), reference.size());
-  const double error = post::relative_rms(a.history.v_drum, reference.v_drum, 25 * 200, reference.size());
-  EXPECT_LT(error, std::string(GetParam().stepping) == "second" ? 1e-4 : 5e-3);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Table1, InLammpsChain,
-    ::testing::Values(Chain{"I", post::Transition::A, "second"}, Chain{"I", post::Transition::B, "second"},
-                      Chain{"II", post::Transition::A, "second"}, Chain{"II", post::Transition::B, "second"},
-                      Chain{"III", post::Transition::A, "second"},
-                      Chain{"III", post::Transition::B, "second"}, Chain{"IV", post::Transition::A, "second"},
-                      Chain{"IV", post::Transition::B, "second"}, Chain{"II", post::Transition::A, "stock"},
-                      Chain{"II", post::Transition::B, "stock"}),
-    chain_name);
-
-TEST_F(InLammps, RunsRollersAsInLiggghts) {
-  const std::filesystem::path rollers = std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers";
-  for (const auto &[machine, setting] :
-       {std::pair("Axas2020", "29Hz"), {"BW120", "63Hz"}, {"CA3500", "low"}, {"CA6500", "high"}}) {
-    SCOPED_TRACE(machine);
-    const Variables variables = {
-        {"roller", (rollers / machine).string()}, {"setting", setting}, {"cycles", "2"}};
-    const Scratch lammps, liggghts;
-    well(run_deck(chain_deck("in.chain.lammps"), variables, lammps.path()));
-    well(run_deck(chain_deck("in.chain"), variables, liggghts.path()));
-    const ChainRun a = read_run(lammps.path()), b = read_run(liggghts.path());
-    EXPECT_LT(relative_difference(a.history.v_drum, b.history.v_drum), 1e-9);
-    EXPECT_LT(relative_difference(a.history.F_contact, b.history.F_contact), 1e-9);
-    EXPECT_EQ(a.history.F_excitation, b.history.F_excitation);
-  }
-}
-
-struct Bounce {
-  const char *name;
-  Variables variables;
-  Variables in_lammps = {}; ///< there instead, where the law has another name
-  double distance = 1e-8;   ///< of the results of the engines. Rounding grows from impact to impact.
-};
-
-void PrintTo(const Bounce &bounce, std::ostream *out) { *out << bounce.name; }
-
-std::string bounce_name(const ::testing::TestParamInfo<Bounce> &info) { return info.param.name; }
-
-/// The last line that begins so; empty if there is none.
-std::string last_line_with(const std::string &output, const std::string &begin) {
-  const std::size_t found = output.rfind(begin);
-  return found == std::string::npos ? "" : output.substr(found, output.find('\n', found) - found);
-}
-
-class InLammpsBounce : public InLammps, public ::testing::WithParamInterface<Bounce> {};
-
-TEST_P(InLammpsBounce, GoesAsInLiggghtsOnSeveralRanksWithNewtonOffAndOn) {
-  const Scratch liggghts;
-  const Outcome here = well(run_deck(test_deck("bounce.in"), GetParam().variables, liggghts.path()));
-  const std::vector<Frame> expected = read_dump(liggghts / "balls.txt");
-  const std::string guard = last_line_with(here.output, "fix guard guard: "); // of the second run
-  EXPECT_TRUE(contains(guard, "critical step")) << here.output;
-  // There is something to compare: balls that have hit walls and each other, and rotate.
-  ASSERT_EQ(expected.size(), 13u);
-  double fastest_turn = 0.0;
-  for (const auto &[id, ball] : expected.back().balls)
-    fastest_turn = std::max(fastest_turn, std::fabs(ball.omega[1]));
-  const Variables &given = GetParam().variables;
-  const bool rubs =
-      std::find(given.begin(), given.end(), Variables::value_type("tangential", "off")) == given.end();
-  EXPECT_EQ(fastest_turn > 1.0, rubs);
-  for (const char *newton : {"off", "on"})
-    for (int ranks = 1; ranks <= most_ranks(); ranks *= 2) {
-      const Scratch lammps;
-      const Variables variables = with(
-          GetParam().in_lammps.empty() ? GetParam().variables : GetParam().in_lammps, {{"newton", newton}});
-      const Outcome there = well(run_deck(test_deck("bounce.lammps"), variables, lammps.path(), ranks));
-      EXPECT_LT(distance(read_dump(lammps / "balls.txt"), expected), GetParam().distance)
-          << "ranks " << ranks << ", newton " << newton;
-      EXPECT_EQ(last_line_with(there.output, "fix guard guard: "), guard) << "ranks " << ranks;
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Balls, InLammpsBounce,
-    ::testing::Values(
-        // Divided where no contact slides: in the set-up of a run, rounding decides whether the engines'
-        // friction takes a contact at its limit for a sliding one.
-        Bounce{"B", {}}, Bounce{"A", {{"transition", "A"}, {"first", "5000"}, {"rest", "7000"}}},
-        Bounce{"stock", {{"stepping", "stock"}}},
-        Bounce{"without_friction", {{"tangential", "off"}, {"mu", "-1"}}},
-        // The dashpot alone is what coulomb gives with a spring of no stiffness, but for the normals with
-        // which the slip is computed, those of the middle or of the end of the step.
-        Bounce{
-            "without_spring", {{"tangential", "coulomb"}, {"kt", "0"}}, {{"tangential", "no_history"}}, 3e-5},
-        Bounce{"coulomb", {{"tangential", "coulomb"}}},
-        Bounce{"coulomb_A_stock", {{"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
-        Bounce{"region", {{"walls", "block"}}},
-        Bounce{"region_A", {{"walls", "block"}, {"transition", "A"}, {"first", "5000"}, {"rest", "7000"}}},
-        Bounce{"rolling", {{"rolling", "epsd2"}, {"first", "5000"}, {"rest", "7000"}}},
-        Bounce{"rolling_coulomb_A_stock",
-               {{"rolling", "epsd2"}, {"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
-        Bounce{"rolling_region", {{"rolling", "epsd2"}, {"walls", "block"}, {"mu_r", "0.05"}}},
-        Bounce{"heavy_dashpots", // c dt/m near 1: they are solved for together. 1e-15 after the first impacts
-               {{"D", "40"}, {"tangential", "off"}, {"mu", "-1"}},
-               {},
-               1e-6}),
-    bounce_name);
-
 // The Hertz law's dashpot has no value at a negative overlap: a contact that has ended has no force.
 TEST(InLammpsWalls, WithoutHistoryEndsAContactWithoutAForce) {
   if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   const Scratch folder;
-  well(run_deck(test_deck("bounce.lammps"),
-                {{"normal", "hertz"}, {"tangential", "no_history"}, {"stepping", "stock"}}, folder.path()));
+  well(run_scene("lammps", "bounce",
+                 {{"normal", "hertz"}, {"tangential", "no_history"}, {"stepping", "stock"}}, folder.path()));
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   ASSERT_FALSE(frames.empty());
   for (const auto &[id, ball] : frames.back().balls)
     for (const double value : {ball.x[0], ball.v[0], ball.v[2], ball.omega[1]})
       EXPECT_TRUE(std::isfinite(value)) << "ball " << id;
-}
-
-// The order of balls in memory decides which of two is the first of a pair: when it changes, the contact
-// history changes its sign.
-TEST_F(InLammps, HistoryIsKeptWhenTheOrderOfBallsChanges) {
-  const Scratch kept;
-  well(run_deck(test_deck("bounce.lammps"), {{"rolling", "epsd2"}}, kept.path()));
-  for (const char *newton : {"off", "on"}) {
-    const Scratch shuffled;
-    EXPECT_TRUE(printed(
-        well(run_deck(test_deck("bounce.lammps"),
-                      {{"rolling", "epsd2"}, {"shuffle", "50"}, {"newton", newton}}, shuffled.path())),
-        "Neighbor list builds = 120"));
-    EXPECT_LT(distance(read_dump(kept / "balls.txt"), read_dump(shuffled / "balls.txt")), 1e-9);
-  }
 }
 
 TEST_F(InLammps, RefusesAnotherVersionOnRanksOneAndTwo) {
@@ -215,31 +53,6 @@ TEST_F(InLammps, RefusesAnotherVersionOnRanksOneAndTwo) {
     EXPECT_TRUE(fails_with(
         run_deck(chain_deck("in.chain.lammps"), {{"plugin", DRUMLIN_OTHER_LAMMPS}}, folder.path(), ranks),
         "ERROR: drumlin " DRUMLIN_VERSION ": built for LAMMPS 1 Feb 2003 (20030201), but this is 20"));
-  }
-}
-
-TEST_F(InLammps, ContinuesFromARestartFileBitwiseOnSeveralRanksWithNewtonOffAndOn) {
-  for (const auto &[ranks, newton, tangential, rolling] : {std::tuple{1, "off", "coulomb", "off"},
-                                                           {2, "off", "history", "epsd2"},
-                                                           {1, "on", "history", "off"},
-                                                           {2, "on", "coulomb", "epsd2"},
-                                                           {2, "on", "no_history", "epsd2"},
-                                                           {4, "off", "coulomb", "epsd2"},
-                                                           {4, "on", "coulomb", "epsd2"}}) {
-    if (ranks > most_ranks()) continue;
-    const Scratch stayed, left;
-    const Variables law = {{"newton", newton}, {"tangential", tangential}, {"rolling", rolling}};
-    well(run_deck(test_deck("bounce.lammps"), law, stayed.path(), ranks));
-    for (const char *file : {"first.restart", "during.6000"}) { // written after a run, and during one
-      const Variables again = with(law, {{"start", (stayed / file).string()},
-                                         {"law", std::string(tangential) == "coulomb" ? "restart" : "deck"}});
-      well(run_deck(test_deck("bounce.resume.lammps"), again, left.path(), ranks));
-      const std::string all = read_text(stayed / "balls.txt"), second = read_text(left / "balls.txt");
-      const std::size_t begin = all.find("ITEM: TIMESTEP\n7000\n");
-      ASSERT_NE(begin, std::string::npos);
-      EXPECT_EQ(all.substr(begin), second.substr(second.find("ITEM: TIMESTEP\n7000\n")))
-          << file << ", ranks " << ranks << ", newton " << newton;
-    }
   }
 }
 
@@ -287,13 +100,13 @@ TEST_F(InLammps, SuffixesChangeNoResult) {
 TEST_F(InLammps, RefusesTheHistoryOfAnotherWallOnRanksOneAndTwo) {
   const WaitForRanks at_once(0);
   const Scratch block;
-  well(run_deck(test_deck("bounce.lammps"), {{"walls", "block"}}, block.path()));
+  well(run_scene("lammps", "bounce", {{"walls", "block"}}, block.path()));
   for (const int ranks : {1, 2}) {
     const Scratch folder;
     EXPECT_TRUE(fails_with(
-        run_deck(test_deck("bounce.resume.lammps"),
-                 {{"start", (block / "first.restart").string()}, {"walls", "cylinder"}}, folder.path(),
-                 ranks),
+        run_scene("lammps", "bounce",
+                  {{"again", "1"}, {"start", (block / "first.restart").string()}, {"walls", "cylinder"}},
+                  folder.path(), ranks),
         "fix wall/gran/transition: the restart file holds another wall under the ID 'walls'; allowed: "));
   }
 }
@@ -303,9 +116,10 @@ const Variables springs = {{"D", "0"}, {"tangential", "off"}, {"mu", "-1"}};
 
 TEST_F(InLammps, ContinuesFromADataFileWithoutContactHistory) {
   const Scratch stayed, left;
-  well(run_deck(test_deck("bounce.lammps"), springs, stayed.path()));
-  const Variables variables = with(springs, {{"start", (stayed / "first.data").string()}});
-  well(run_deck(test_deck("bounce.data.lammps"), variables, left.path()));
+  well(run_scene("lammps", "bounce", springs, stayed.path()));
+  const Variables from = {
+      {"start", (stayed / "first.data").string()}, {"again", "1"}, {"data", "1"}, {"law", "deck"}};
+  well(run_scene("lammps", "bounce", with(springs, from), left.path()));
   std::vector<Frame> whole = read_dump(stayed / "balls.txt");
   const std::vector<Frame> rest = read_dump(left / "balls.txt");
   whole.erase(whole.begin(), whole.end() - static_cast<std::ptrdiff_t>(rest.size()));
@@ -329,20 +143,6 @@ TEST_F(InLammps, HistoryOfABallPutBackOnAFaceOfARegionStartsAtZero) {
   for (const std::array<double, 2> &again : {put_back, hopped}) {
     EXPECT_NEAR(again[0], 0, 1e-12);
     EXPECT_NEAR(std::fabs(again[1]), kn * overlap, 0.05 * kn * overlap);
-  }
-}
-
-// A set-up computes forces from velocities of the full step, which second-order stepping would have had, too.
-TEST_F(InLammps, RunSplitOrWholeIsOneUnderSecondOrderStepping) {
-  for (const char *D : {"0", "0.2"}) {
-    std::vector<std::vector<Frame>> frames;
-    for (const auto &[first, rest] : {std::pair{"2500", "9500"}, std::pair{"10500", "1500"}}) {
-      const Variables variables = with({{"D", D}, {"first", first}, {"rest", rest}}, springs);
-      const Scratch folder;
-      well(run_deck(test_deck("bounce.lammps"), variables, folder.path()));
-      frames.push_back(read_dump(folder / "balls.txt"));
-    }
-    EXPECT_LT(distance(frames[0], frames[1]), std::string(D) == "0" ? 1e-9 : 1e-6) << D;
   }
 }
 
@@ -372,7 +172,7 @@ TEST_F(InLammps, ForcesAreTheCentralDifferencesOfTheEnergy) {
       const bool pipe = std::string(walls) == "cylinder";
       const Scratch folder;
       const Variables variables = with(springs, {{"stepping", stepping}, {"walls", walls}});
-      well(run_deck(test_deck("bounce.lammps"), variables, folder.path()));
+      well(run_scene("lammps", "bounce", variables, folder.path()));
       double largest = 0.0;
       for (const Frame &frame : read_dump(folder / "balls.txt"))
         for (const auto &[id, ball] : frame.balls)
@@ -395,8 +195,8 @@ TEST_F(InLammps, ForcesAreTheCentralDifferencesOfTheEnergy) {
 TEST_F(InLammps, ContactsOfADumpExplainTheForcesOnBallsOnRanksOneAndTwo) {
   for (const auto &[ranks, newton] : {std::pair{1, "off"}, {2, "off"}, {1, "on"}, {2, "on"}}) {
     const Scratch folder;
-    well(run_deck(test_deck("bounce.lammps"), {{"D", "0"}, {"dump_every", "500"}, {"newton", newton}},
-                  folder.path(), ranks));
+    well(run_scene("lammps", "bounce", {{"D", "0"}, {"dump_every", "500"}, {"newton", newton}}, folder.path(),
+                   ranks));
     std::array<std::size_t, 2> judged{};
     const std::map<long, post::StepDump> steps = post::dumped_steps(folder / "dump");
     EXPECT_EQ(steps.size(), 25u);

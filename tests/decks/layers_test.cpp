@@ -1,7 +1,9 @@
-// Beds of layers: the contacts of each layer, of layers with each other and with walls, in closed form; and
-// small beds that are made and settled layer by layer.
+// Beds of layers, and of a given grading.
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
+
+#include "bed/dump_readers.h"
+#include "engine/deck_run.h"
 #include "tests/support/host_deck.h"
 
 #include "runs/parameter_file.h"
@@ -21,6 +23,10 @@
 
 namespace drumlin::test {
 namespace {
+
+// Beds of layers: the contacts of each layer, of layers with each other and with walls, in closed form; and
+// small beds that are made and settled layer by layer.
+namespace layers {
 
 constexpr double radius = 0.05, box_top = 1.0; // m
 
@@ -88,8 +94,7 @@ protected:
                                        {"suction", lists[4]},
                                        {"dimension", dimension},
                                        {"balls", (folder / "balls").string()}});
-    return run_deck(test_deck(engine == "lammps" ? "layers.lammps" : "layers.in"), variables, folder.path(),
-                    ranks);
+    return test::run_scene(engine, "layers", variables, folder.path(), ranks);
   }
   /// The last state of layers.scene with these balls.
   static std::map<long, Ball> last_state(const std::vector<Placed> &balls, const Variables &more,
@@ -428,6 +433,122 @@ TEST_P(LayeredBed, CarriesARollerAndContinuesWhereItStopped) {
                  right = dashpots(whole.output, fmt::format("ground_right_{}", n + 1));
     EXPECT_NEAR(std::fmax(left, right), sides[n], 1e-5 * sides[n]) << n;
     EXPECT_TRUE(left == 0.0 || right == 0.0 || std::fabs(left - right) < 1e-5 * sides[n]) << n;
+  }
+}
+
+} // namespace layers
+
+// The decks of the bed on balls of a given grading: the files note it, and the time steps follow the smallest
+// ball.
+namespace grading {
+
+namespace fs = std::filesystem;
+
+fs::path deck(const char *name) { return fs::path(DRUMLIN_SOURCE_DIR) / "inputs/bed" / name; }
+
+/// A scene of the decks from balls to a cycle of excitation, hardly settled; its parameters.csv.
+std::map<std::string, std::string> parameters_of(const Scratch &folder, const std::vector<std::string> &sizes,
+                                                 const std::string &case_name, const char *last_deck) {
+  std::vector<std::string> words = {DRUMLIN_TOOLS, "bed", "--balls", "40",
+                                    "--width",     "0.4", "--out",   "balls"};
+  words.insert(words.end(), sizes.begin(), sizes.end());
+  well(run_program(words, {}, folder.path()));
+  well(
+      run_deck(deck("in.settle"),
+               {{"case", case_name}, {"balls", "balls"}, {"bed", "soil"}, {"fall", "0.01"}, {"ratio", "1e9"}},
+               folder.path()));
+  well(run_deck(deck("in.place"),
+                {{"case", case_name},
+                 {"bed", "soil"},
+                 {"start", "roller"},
+                 {"sink", "0"},
+                 {"ratio", "1e9"},
+                 {"r2", "0.1"},
+                 {"r3", "0.05"},
+                 {"m2", "1000"},
+                 {"m3", "500"}},
+                folder.path()));
+  // A cycle of 20 Hz, from which the number of steps follows.
+  well(run_deck(deck(last_deck),
+                {{"start", "roller"}, {"out", "B"}, {"cycles", "1"}, {"Fw", "1"}, {"balance", "1e30"}},
+                folder.path()));
+  return post::read_parameters(folder / "B/parameters.csv");
+}
+
+/// Time steps at 20 Hz in half of an undamped oscillation of two of the smallest balls on each other: closed
+/// form.
+double steps_in_contact(double mass, double k, double steps_per_cycle) {
+  constexpr double pi = 3.141592653589793;
+  return pi * std::sqrt(0.5 * mass / k) * 20.0 * steps_per_cycle;
+}
+
+TEST(GradedBedDecks, NoteTheGradingAndFollowTheSmallestDisc) {
+  const Scratch folder;
+  std::map<std::string, std::string> made =
+      parameters_of(folder, {"--sieve", "WMM", "--cut", "14"}, "gravel", "in.bed");
+  EXPECT_EQ(made["grading"], "WMM_from_14mm");
+  EXPECT_EQ(made["r_min"], "0.007");
+  EXPECT_EQ(made["r_max"], "0.0265");
+  EXPECT_NEAR(std::stod(made["d50"]), 0.0276, 0.002);
+  EXPECT_NEAR(std::stod(made["C_u"]), 1.9, 0.2);
+  const auto disc = [](double r) { return 3.141592653589793 * r * r * 2650.0; };
+  const double steps = std::stod(made["steps_per_cycle"]);
+  EXPECT_EQ(std::fmod(steps, 250.0), 0.0);
+  EXPECT_NEAR(steps_in_contact(disc(0.007), 1e9, steps), steps_in_contact(disc(0.016), 1e9, 8000), 0.3);
+}
+
+TEST(GradedBedDecks, FollowTheSmallestSphere) {
+  const Scratch folder;
+  std::map<std::string, std::string> made =
+      parameters_of(folder, {"--sieve", "WMM", "--cut", "20", "--depth", "0.08"}, "gravel3d", "in.bed3d");
+  const auto sphere = [](double r) { return 4.0 / 3.0 * 3.141592653589793 * r * r * r * 2650.0; };
+  const double steps = std::stod(made["steps_per_cycle"]);
+  EXPECT_NEAR(steps_in_contact(sphere(0.010), 4e7, steps), steps_in_contact(sphere(0.016), 4e7, 12500), 0.3);
+}
+
+TEST(GradedBedDecks, KeepTheStepsOfGravel) {
+  const Scratch folder;
+  std::map<std::string, std::string> made = parameters_of(folder, {}, "gravel", "in.bed");
+  EXPECT_EQ(made["steps_per_cycle"], "8000");
+  EXPECT_EQ(made["grading"], "uniform");
+}
+
+// The base course has about as many steps in a contact, which is unloaded with the stiffness k yield.
+TEST(GradedBedDecks, HaveStepsForContactsOfTheBaseCourseThatAreUnloaded) {
+  const Scratch folder;
+  std::map<std::string, std::string> made = parameters_of(folder, {}, "base", "in.bed");
+  const double k2 = std::stod(made["k"]) * std::stod(made["yield"]),
+               mass = 3.141592653589793 * 2.56e-4 * 2650;
+  EXPECT_NEAR(steps_in_contact(mass, k2, std::stod(made["steps_per_cycle"])),
+              steps_in_contact(mass, 1e9, 8000), 0.5);
+}
+
+} // namespace grading
+
+// A bed below a drum in the middle of the box, on a border of two ranks, and aside, where a rank has no ball.
+// It is one row of balls: the motion of more is chaotic, so that rounding grows to the size of a radius.
+TEST(BedOnRanks, HasEveryBallWhereItIsOnOne) {
+  constexpr double radius = 0.02; // m, the deck's default
+  for (const char *centre : {"0", "0.8"}) {
+    std::vector<post::TextDump> one;
+    for (const int ranks : {1, 2}) {
+      const Scratch scratch;
+      well(run_deck(
+          post::input_file("study/in.small_bed"),
+          {{"rows", "1"}, {"drum_mass", "100"}, {"settling", "6000"}, {"centre", centre}, {"out", "out"}},
+          scratch.path(), ranks));
+      const post::TextDump last = post::read_text_dumps(scratch / "out/last.dump").back();
+      if (ranks == 1) {
+        one = {last};
+        continue;
+      }
+      ASSERT_EQ(last.rows.size(), one.front().rows.size());
+      for (std::size_t i = 0; i < last.rows.size(); ++i)
+        for (const char *column : {"id", "x", "z"})
+          EXPECT_NEAR(last.rows[i][last.column(column)], one.front().rows[i][last.column(column)],
+                      1e-3 * radius)
+              << column;
+    }
   }
 }
 

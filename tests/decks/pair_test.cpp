@@ -1,6 +1,7 @@
 // Two balls: momentum, the effective mass, mirror images, the two ways to give damping, and the bond.
 #include "tests/support/balls_run.h"
 #include "tests/support/checks.h"
+#include "tests/support/host_deck.h"
 #include "tests/support/engine_and_scheme.h"
 
 #include "chain/analysis.h"
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <complex>
 #include <fstream>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -296,6 +298,32 @@ TEST(Reaction, OfAFixedBallIsTheForceOnTheOtherBall) {
       EXPECT_LT(miss, 1e-10 * most) << fix << ", D = " << dashpot;
       EXPECT_NEAR(run.reaction.back(), -m2 * g, 0.01 * m2 * g) << fix << ", D = " << dashpot;
     }
+}
+
+// Velocity or law changed between two runs: the force of the set-up is that of the present ones, not that of
+// the step before.
+TEST(ASetUp, TakesWhatTheDeckHasChangedBetweenTwoRuns) {
+  const std::string softer = property("kn", "5e6");
+  const struct {
+    std::string lines;
+    double k, c_of_rate;
+  } changes[] = {{"velocity all set 0 0 0 units box", 1e7, 0.0},
+                 {"unfix kn\n" + softer, 5e6, std::sqrt(2000 * 5e6)}, // c = 2 D sqrt(m k), D = 0.5
+                 {"", 1e7, std::sqrt(2000 * 1e7)}};
+  for (const auto &change : changes) {
+    const Scratch folder;
+    const std::string lines = "run 1500\n" + change.lines +
+                              "\ncompute f drum reduce sum fz\nthermo_style custom step c_f\nrun 0\n"
+                              "print \"force $(c_f) overlap $(0.75-xcm(drum,z)) rate $(-vcm(drum,z))\"";
+    const Outcome run = run_host(host_pair_style() + host_properties(), lines, folder.path(), 1);
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(run.output, found,
+                                  std::regex("\nforce ([0-9.e+-]+) overlap ([0-9.e+-]+) rate ([0-9.e+-]+)")))
+        << run.output;
+    const double force = std::stod(found[1]), d = std::stod(found[2]), rate = std::stod(found[3]);
+    const double expected = change.k * d + change.c_of_rate * rate - 2000 * 9.81;
+    EXPECT_NEAR(force, expected, 1e-6 * 2000 * 9.81) << change.lines;
+  }
 }
 
 } // namespace

@@ -27,19 +27,11 @@ using post::Transition;
 
 constexpr int cycles = 10, samples = 100;
 /// Exciter, bonds and dashpots beside the middle: everything couples with the tilt.
-constexpr const char *machine =
-    "drum_mass 3.9 t\nframe_mass 3.3 t\nwidth 2.1 m\ndrum_inertia 2100 kg m2\n"
-    "frame_inertia 2400 kg m2\nexciter_place 0.1 m\nsensor_place 0.9 m\n"
-    "bond_stiffness 3 MN/m\nbond_damping 30 kN s/m\nbond_stiffness_left 1.6 MN/m\n"
-    "bond_left 0.7 m\nbond_right 0.6 m\ndamper_left 0.65 m\ndamper_right 0.6 m\n"
-    "frequency 29 Hz\nforce 240 kN\n";
-constexpr const char *soil =
-    "y (m),k (N/m),c (N s/m)\n-0.9,8e6,3e4\n-0.2,11e6,5e4\n0.3,5e6,2e4\n0.8,6e6,3e4\n";
-
 /// A folder with the files of machine and soil, and a run of in.rocking with them.
 class RockingRun {
 public:
-  explicit RockingRun(const std::string &of_machine = machine, const std::string &of_soil = soil) {
+  explicit RockingRun(const std::string &of_machine = read_text(test_deck("rocking.machine")),
+                      const std::string &of_soil = read_text(test_deck("rocking.soil"))) {
     std::ofstream(folder_ / "machine") << of_machine;
     std::ofstream(folder_ / "soil") << of_soil;
   }
@@ -220,59 +212,6 @@ TEST(RockingMeters, TellTheSoilBelowEachHalf) {
       well(run_program({DRUMLIN_TOOLS, "meter", ".", "--out", "values"}, {}, rocking.folder().path()));
   EXPECT_TRUE(meter.says("Both together: 9 MN/m below the left half, 6 MN/m below the right one"))
       << meter.output;
-}
-
-TEST(RockingInLammps, HasTheDigitsOfLiggghts) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  const RockingRun rocking;
-  for (const std::string stepping : {"second", "stock"}) {
-    const Variables scheme = {{"stepping", stepping}, {"transition", "A"}};
-    const ChainRun a = rocking.run(scheme), b = rocking.run(scheme, "in.rocking.lammps");
-    for (const Column column : ends_columns)
-      EXPECT_LT(relative_difference(a.history.*column, b.history.*column), 1e-11) << stepping;
-    EXPECT_EQ(a.events.size(), b.events.size());
-  }
-}
-
-TEST(RockingOnRanks, IsThatOnOne) {
-  for (const std::string deck : {"in.rocking", "in.rocking.lammps"}) {
-    if (deck == "in.rocking.lammps" && !post::has_lammps()) continue;
-    const RockingRun rocking;
-    const Variables few = {{"cycles", "3"}, {"steps_per_cycle", "1000"}};
-    const ChainRun one = rocking.run(few, deck), two = rocking.run(few, deck, 2);
-    for (const Column column : ends_columns)
-      EXPECT_LT(relative_difference(one.history.*column, two.history.*column), 1e-9) << deck;
-    EXPECT_GT(one.events.size(), 4U); // contacts are lost and made again
-    EXPECT_EQ(one.events.size(), two.events.size());
-  }
-}
-
-// A run that continues from its restart file in another process writes the same rows, byte for byte.
-TEST(RockingRestarts, ContinueBitwise) {
-  for (const std::string engine : {"", ".lammps"}) {
-    if (!engine.empty() && !post::has_lammps()) continue;
-    const RockingRun stayed, left;
-    const auto run = [&](const RockingRun &rocking, const std::string &deck, const char *after) {
-      well(run_deck(test_deck(deck + engine),
-                    rocking.variables({{"after", after},
-                                       {"cycles", "2"},
-                                       {"here", chain_deck("").parent_path().string()},
-                                       {"tests", test_deck("").parent_path().string()}}),
-                    rocking.folder().path()));
-    };
-    run(stayed, "rocking.stop", "5333");
-    run(left, "rocking.stop", "0");
-    const std::size_t before = post::read_chain(left / "chain.csv").size();
-    Variables again;
-    for (const auto &[name, value] : left.variables({{"after", "5333"},
-                                                     {"here", chain_deck("").parent_path().string()},
-                                                     {"tests", test_deck("").parent_path().string()}}))
-      if (name != "tilt") again.emplace_back(name, value);
-    well(run_deck(test_deck("rocking.resume" + engine), again, left.folder().path()));
-    EXPECT_GT(post::read_chain(left / "chain.csv").size(), before + 200);
-    for (const char *file : {"chain.csv", "events.csv", "cycles.csv"})
-      EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file << engine;
-  }
 }
 
 } // namespace

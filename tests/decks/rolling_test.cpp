@@ -1,6 +1,4 @@
-// Rolling resistance in both engines: a ball that rolls to rest on a plane, with its energy balance; a ball
-// that circles around another, so that the normal turns; heaps in two and three dimensions, engine against
-// engine.
+// Rolling resistance and friction of balls of one size and of very different ones.
 #include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
 #include "tests/support/frame_distance.h"
@@ -25,6 +23,11 @@
 
 namespace drumlin::test {
 namespace {
+
+// Rolling resistance in both engines: a ball that rolls to rest on a plane, with its energy balance; a ball
+// that circles around another, so that the normal turns; heaps in two and three dimensions, engine against
+// engine.
+namespace rolling {
 
 class RollingBall : public BothEngines {};
 INSTANTIATE_TEST_SUITE_P(Decks, RollingBall, engines_and_steppings(), engine_and_stepping);
@@ -100,21 +103,6 @@ INSTANTIATE_TEST_SUITE_P(
     Decks, RollingHeap, ::testing::Combine(::testing::Values("2", "3"), ::testing::Values("second", "stock")),
     [](const auto &test) { return "in" + std::get<0>(test.param) + "D_" + std::get<1>(test.param); });
 
-TEST_P(RollingHeap, IsTheSameInBothEngines) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  const auto &[dimension, stepping] = GetParam();
-  const auto heap = [&, d = dimension, s = stepping](const char *deck, const char *resistance) {
-    const Scratch folder;
-    well(run_deck(test_deck(deck), {{"dimension", d}, {"stepping", s}, {"contact_rolling", resistance}},
-                  folder.path()));
-    return read_dump(folder / "balls.txt");
-  };
-  const std::vector<Frame> liggghts = heap("heap.in", "0.2");
-  ASSERT_EQ(liggghts.size(), 9u);
-  EXPECT_LT(distance(heap("heap.lammps", "0.2"), liggghts), 1e-9);
-  EXPECT_GT(distance(heap("heap.lammps", "0"), liggghts), 1e-3);
-}
-
 /// In time steps in which a deck asks for the pressure, LIGGGHTS computes the contacts in its own loop; in
 /// all others the plugin computes them in another one. Both give the same motion and the same forces on
 /// balls, bit for bit, the same forces of contacts in fix contact/local to 1e-9 N, and the same energies in
@@ -126,14 +114,14 @@ TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
   for (const char *damping : {"0.2", "20"}) {
     const auto heap = [&, d = dimension, s = stepping](const Scratch &folder, const char *observed,
                                                        const char *pressed) {
-      well(run_deck(test_deck("heap.in"),
-                    {{"dimension", d},
-                     {"stepping", s},
-                     {"contact_D", damping},
-                     {"observed", observed},
-                     {"pressed", pressed},
-                     {"steps", "2400"}},
-                    folder.path()));
+      well(run_scene("liggghts", "heap",
+                     {{"dimension", d},
+                      {"stepping", s},
+                      {"contact_D", damping},
+                      {"observed", observed},
+                      {"pressed", pressed},
+                      {"steps", "2400"}},
+                     folder.path()));
       return post::read_text(folder / "balls.txt");
     };
     const Scratch plain, engine, plugin;
@@ -194,18 +182,18 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
   constexpr double mu = 0.4, mu_r = 0.2; // of heap.scene, as the radius, m
   const auto radius = [](long id) { return 0.5 * (0.07 + 0.02 * std::sin(7.0 * static_cast<double>(id))); };
   const auto &[dimension, stepping] = GetParam();
-  for (const char *deck : {"heap.in", "heap.lammps"}) {
-    if (std::string(deck) == "heap.lammps" && !post::has_lammps()) continue;
+  for (const char *engine : {"liggghts", "lammps"}) {
+    if (std::string(engine) == "lammps" && !post::has_lammps()) continue;
     for (const char *damping : {"10", "40"}) {
       const Scratch folder;
-      well(run_deck(test_deck(deck),
-                    {{"dimension", dimension},
-                     {"stepping", stepping},
-                     {"contact_D", damping},
-                     {"observed", "1"},
-                     {"steps", "4000"},
-                     {"contacts_every", "20"}},
-                    folder.path()));
+      well(run_scene(engine, "heap",
+                     {{"dimension", dimension},
+                      {"stepping", stepping},
+                      {"contact_D", damping},
+                      {"observed", "1"},
+                      {"steps", "4000"},
+                      {"contacts_every", "20"}},
+                     folder.path()));
       int contacts = 0, at_limit = 0;
       std::map<long, std::map<long, double>>
           largest; // torque of each ball that its contacts allow, N m, by step
@@ -215,7 +203,7 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
           // N: the file has nine decimal places of forces, N, and of normals.
           const double digits = 1e-8 * (1.0 + std::hypot(row[2], row[3], row[4]));
           EXPECT_LE(rub, mu * std::max(0.0, push) + digits)
-              << deck << ' ' << damping << ", step " << step << ", balls " << row[0] << ' ' << row[1];
+              << engine << ' ' << damping << ", step " << step << ", balls " << row[0] << ' ' << row[1];
           const long i = std::lround(row[0]), j = std::lround(row[1]); // j = 0: a wall
           const double reduced = j == 0 ? radius(i) : radius(i) * radius(j) / (radius(i) + radius(j));
           for (const long ball : {i, j})
@@ -223,61 +211,20 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
           ++contacts;
           at_limit += rub > 0.999 * mu * push ? 1 : 0;
         }
-      EXPECT_GT(contacts, 1000) << deck << ' ' << damping;
-      EXPECT_GT(at_limit, contacts / 100) << deck << ' ' << damping;
+      EXPECT_GT(contacts, 1000) << engine << ' ' << damping;
+      EXPECT_GT(at_limit, contacts / 100) << engine << ' ' << damping;
 
       int turned = 0;
       for (const Frame &frame : read_dump(folder / "balls.txt"))
         for (const auto &[id, ball] : frame.balls) {
           const double torque = std::hypot(ball.torque[0], ball.torque[1], ball.torque[2]);
           EXPECT_LE(torque, (1.0 + 1e-6) * largest[frame.step][id] + 1e-9)
-              << deck << ' ' << damping << ", ball " << id << " in step " << frame.step;
+              << engine << ' ' << damping << ", ball " << id << " in step " << frame.step;
           turned += torque > 0.0 ? 1 : 0;
         }
-      EXPECT_GT(turned, 100) << deck << ' ' << damping;
+      EXPECT_GT(turned, 100) << engine << ' ' << damping;
     }
   }
-}
-
-/// The motion of a heap of heavily damped balls (D = 20), which are identified by their number in heap.scene,
-/// since the IDs that the engines give them depend on the number of ranks.
-std::vector<Frame> heap_by_number(const char *deck, const std::string &dimension, const char *newton,
-                                  int ranks) {
-  const Scratch folder;
-  well(run_deck(test_deck(deck),
-                {{"dimension", dimension}, {"contact_D", "20"}, {"newton", newton}, {"steps", "2400"}},
-                folder.path(), ranks));
-  std::vector<Frame> frames = read_dump(folder / "balls.txt");
-  const std::map<long, Ball> start = frames.at(0).balls;
-  const auto number = [&start](long id) {
-    const auto &x = start.at(id).x;
-    return 1 + std::lround(std::floor(10 * x[0]) + 5 * std::floor(10 * x[1]) +
-                           30 * std::floor(10 * (x[2] + 0.1)));
-  };
-  for (Frame &frame : frames) {
-    std::map<long, Ball> balls;
-    for (const auto &[id, ball] : frame.balls)
-      balls[number(id)] = ball;
-    frame.balls = balls;
-  }
-  return frames;
-}
-
-/// The normal forces of heavily damped contacts that share a ball are computed together. The friction force
-/// and the torque of rolling resistance of each contact are then limited in proportion to its normal force.
-/// On several ranks, contacts that share a ball may belong to different ranks. The motion must be the same.
-TEST(HeapOnSeveralRanks, IsThatOnOne) {
-  for (const char *dimension : {"2", "3"})
-    for (const auto &[deck, newton] :
-         {std::pair("heap.in", "off"), std::pair("heap.lammps", "off"), std::pair("heap.lammps", "on")}) {
-      if (std::string(deck) == "heap.lammps" && !post::has_lammps()) continue;
-      const std::vector<Frame> one = heap_by_number(deck, dimension, newton, 1);
-      ASSERT_EQ(one.size(), 9u);
-      ASSERT_EQ(one.back().balls.size(), 60u);
-      for (int ranks = 2; ranks <= most_ranks(); ranks *= 2)
-        EXPECT_LT(distance(heap_by_number(deck, dimension, newton, ranks), one), 1e-10)
-            << dimension << "D, " << deck << ", newton " << newton << ", " << ranks << " ranks";
-    }
 }
 
 /// The friction force Ft of a heavily damped contact is limited twice: to the friction coefficient times a
@@ -288,30 +235,121 @@ TEST(HeapOnSeveralRanks, IsThatOnOne) {
 TEST_P(RollingHeap, TheSpringOfFrictionFollowsTheLimit) {
   constexpr double kt = 2.0 / 7.0 * 1e5; // N/m, of heap.scene
   const auto &[dimension, stepping] = GetParam();
-  for (const auto &[deck, undamped_friction] :
-       {std::pair("heap.in", "fix ct all property/global gammat_abs peratomtypepair 3 0 0 0 0 0 0 0 0 0"),
-        std::pair("heap.lammps", "pair_coeff * * 1e5 20 0.4 NULL 0")}) {
-    if (std::string(deck) == "heap.lammps" && !post::has_lammps()) continue;
+  for (const auto &[engine, undamped_friction] :
+       {std::pair("liggghts", "fix ct all property/global gammat_abs peratomtypepair 3 0 0 0 0 0 0 0 0 0"),
+        std::pair("lammps", "pair_coeff * * 1e5 20 0.4 NULL 0")}) {
+    if (std::string(engine) == "lammps" && !post::has_lammps()) continue;
     const Scratch folder;
-    well(run_deck(test_deck(deck),
-                  {{"dimension", dimension},
-                   {"stepping", stepping},
-                   {"contact_D", "20"},
-                   {"rolling_history", "0"},
-                   {"line_of_law", undamped_friction},
-                   {"observed", "1"},
-                   {"steps", "4000"},
-                   {"contacts_every", "4000"}},
-                  folder.path()));
+    well(run_scene(engine, "heap",
+                   {{"dimension", dimension},
+                    {"stepping", stepping},
+                    {"contact_D", "20"},
+                    {"rolling_history", "0"},
+                    {"line_of_law", undamped_friction},
+                    {"observed", "1"},
+                    {"steps", "4000"},
+                    {"contacts_every", "4000"}},
+                   folder.path()));
     double stored = 0.0; // J, of the last step
     const std::map<long, std::vector<ContactRow>> steps = rows_of_contacts(folder / "contacts.txt");
     for (const ContactRow &row : steps.at(4000))
       stored += friction_of(row) * friction_of(row) / (2.0 * kt);
     const double energy = post::read_table(folder / "energies.csv").numbers("tangential").at(0);
-    EXPECT_GT(energy, 0.0) << deck;
-    EXPECT_NEAR(stored, energy, 1e-6 * energy) << deck;
+    EXPECT_GT(energy, 0.0) << engine;
+    EXPECT_NEAR(stored, energy, 1e-6 * energy) << engine;
   }
 }
+
+} // namespace rolling
+
+// Friction between balls of very different sizes, in both engines: a small ball rolls down the groove between
+// two large ones and falls off; a ball stays at rest between a large and a small one.
+namespace sizes {
+
+class SizeRatio : public BothEngines {};
+INSTANTIATE_TEST_SUITE_P(Decks, SizeRatio, engines_and_steppings(), engine_and_stepping);
+
+constexpr double large = 5e-3, g = 9.81;
+
+/// Angle from the top of the groove and distance from the line of the large centres, in units of that in
+/// contact.
+struct Place {
+  double angle, distance;
+};
+
+std::vector<Place> path_in_the_groove(const std::filesystem::path &dump, double contact) {
+  std::vector<Place> path;
+  for (const Frame &frame : read_dump(dump)) {
+    const Ball &ball = frame.balls.at(3);
+    const double y = ball.x[1] - 0.15, z = ball.x[2] - 0.3;
+    path.push_back({std::atan2(y, z), std::hypot(y, z) / contact});
+  }
+  return path;
+}
+
+/// Force towards the groove, in weights, at which the ball comes off; < 0: the ball is wedged in, and it
+/// takes a pull. The weight W is carried by normal and tangential springs of both contacts, N = n W and T = t
+/// W, unless friction slides, T = mu N. As the force falls to W' the springs unload by n (W - W') and t (W -
+/// W'), until friction slides the other way, T = -mu N.
+double force_at_the_end(double sine) {
+  constexpr double kt = 2.0 / 7.0, mu = 0.5; // kt over k
+  const double cosine = std::sqrt(1 - sine * sine), stiffness = 2 * (sine * sine + kt * cosine * cosine);
+  const double n = sine / stiffness, t = kt * cosine / stiffness;
+  return t <= mu * n ? 0.0 : 1 - 2 * mu * 0.5 / (sine + mu * cosine) / (t + mu * n);
+}
+
+/// With l the distance of the ball from the line of the large centres and R + r that of the centres, rolling
+/// without slip is (1 + 0.4 (R + r)^2/l^2) l a'' = g sin a. At the angle where g cos a - v^2/l has fallen to
+/// force_at_the_end() the ball comes off; friction across the groove can only make that earlier. (With the
+/// normal of the end of the step in the slip velocity the ball sticks to the groove down to its bottom.)
+TEST_P(SizeRatio, RollsDownTheGrooveAndFallsOff) {
+  for (const double ratio : {1.0, 3.0, 20.0, 100.0}) {
+    const double r = large / ratio, length = std::sqrt((large + r) * (large + r) - large * large);
+    const double slowed = 1 + 0.4 * std::pow((large + r) / length, 2);
+    const double leaves = std::acos((force_at_the_end(length / (large + r)) * slowed + 2) / (2 + slowed));
+    const Scratch folder;
+    well(run("groove", folder, {{"ratio", number(ratio)}}));
+    const std::vector<Place> path = path_in_the_groove(folder / "balls.txt", length);
+    double angle = 0.01745, rate = 0, farthest = 0; // velocity Verlet with 100 steps for a row
+    const double dt = 3000e-6 / 100;
+    const auto kick = [&] { rate += 0.5 * dt * g / (length * slowed) * std::sin(angle); };
+    int rows = 0;
+    for (const Place &place : path) {
+      if (angle < 0.5) {
+        ++rows;
+        EXPECT_NEAR(place.angle, angle, 1e-3 * angle) << "ratio " << ratio << ", row " << rows;
+        EXPECT_NEAR(place.distance, 1, 1e-5) << "ratio " << ratio << ", row " << rows;
+      }
+      if (place.distance < 1.001) farthest = std::max(farthest, std::fabs(place.angle));
+      for (int n = 0; n < 100; ++n) {
+        kick();
+        angle += dt * rate;
+        kick();
+      }
+    }
+    EXPECT_GT(rows, 10);
+    EXPECT_LT(farthest, leaves + 0.15) << "ratio " << ratio;
+    EXPECT_GT(farthest, 0.5) << "ratio " << ratio;
+  }
+}
+
+TEST_P(SizeRatio, StaysAtRestBetweenALargeAndASmallBall) {
+  for (const double ratio : {1.0, 3.0, 20.0, 100.0}) {
+    const Scratch folder;
+    well(run("wedge", folder, {{"ratio", number(ratio)}}));
+    const std::vector<Frame> frames = read_dump(folder / "balls.txt");
+    ASSERT_EQ(frames.size(), 11u);
+    const Ball &middle = frames[5].balls.at(3), &end = frames[10].balls.at(3);
+    for (std::size_t a = 0; a < 3; ++a) {
+      EXPECT_NEAR(end.v[a], 0, 1e-9) << "ratio " << ratio;            // m/s
+      EXPECT_NEAR(end.x[a], middle.x[a], 1e-12) << "ratio " << ratio; // m
+      EXPECT_NEAR(end.x[a], frames[0].balls.at(3).x[a], 1e-8) << "ratio " << ratio;
+      EXPECT_NEAR(end.omega[a], 0, 1e-9 / (large / ratio)) << "ratio " << ratio; // rad/s
+    }
+  }
+}
+
+} // namespace sizes
 
 } // namespace
 } // namespace drumlin::test

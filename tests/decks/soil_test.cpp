@@ -51,72 +51,6 @@ const Lattice lattices[] = {
 
 void PrintTo(const Lattice &lattice, std::ostream *out) { *out << lattice.name; }
 
-/// A short run of an element test on a lattice.
-struct ElementTest {
-  std::string name;
-  Variables variables;
-  std::vector<const char *> columns; ///< of its CSV file that are compared
-};
-
-const std::vector<const char *> of_compression = {"strain",          "axial_stress_kPa", "side_stress_kPa",
-                                                  "base_stress_kPa", "stored_J",         "work_J"};
-const std::vector<const char *> of_own_weight = {"displacement_mm", "left_force_N", "side_force_N",
-                                                 "floor_force_N", "work_J"};
-const ElementTest element_tests[] = {
-    {"oedometer",
-     {{"sample", "hexagonal"}, {"loads", "6"}, {"ramp", "200"}, {"every", "100"}, {"ratio", "1e-3"}},
-     {"settlement_mm", "modulus_MPa", "stored_J", "contact_heat_J", "drag_heat_J"}},
-    {"biaxial",
-     {{"sample", "hexagonal"},
-      {"friction", "0.3"},
-      {"columns", "6"},
-      {"layers", "7"},
-      {"samples_of_strain", "4"},
-      {"ramp", "400"},
-      {"inertial_number", "1e-4"},
-      {"strain", "2e-4"}},
-     of_compression},
-    {"triaxial",
-     {{"sample", "face_centred"},
-      {"columns", "4"},
-      {"rows", "4"},
-      {"layers", "5"},
-      {"samples_of_strain", "4"},
-      {"ramp", "400"},
-      {"inertial_number", "1e-4"},
-      {"strain", "1e-4"}},
-     of_compression},
-    {"shear",
-     {{"sample", "hexagonal"},
-      {"columns", "4"},
-      {"layers", "9"},
-      {"rolling", "0"},
-      {"samples_of_strain", "4"},
-      {"ramp", "400"},
-      {"inertial_number", "1e-4"},
-      {"strain", "1e-4"}},
-     {"shear_strain", "shear_stress_kPa", "normal_stress_kPa", "stored_J", "work_J"}},
-    {"wall",
-     {{"sample", "hexagonal"},
-      {"columns", "8"},
-      {"layers", "9"},
-      {"inertial_number", "1e-4"},
-      {"strain", "5e-5"},
-      {"ramp", "1000"},
-      {"samples_of_strain", "2"}},
-     of_own_weight},
-    {"silo",
-     {{"sample", "hexagonal"},
-      {"columns", "8"},
-      {"layers", "9"},
-      {"strain", "1e-5"},
-      {"ramp", "200"},
-      {"samples_of_strain", "2"}},
-     of_own_weight},
-    {"density", {{"sample", "hexagonal"}}, {"void_ratio", "solid_fraction", "coordination"}}};
-
-void PrintTo(const ElementTest &test, std::ostream *out) { *out << test.name; }
-
 Variables small_loads(const Lattice &lattice, const std::string &friction) {
   return {{"sample", lattice.name}, {"loads", "6 7 6"},        {"ratio", "1e-9"},
           {"friction", friction},   {"k", number(lattice.kn)}, {"kt", number(lattice.kt)}};
@@ -129,11 +63,6 @@ protected:
       GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   }
 };
-
-void expect_equal(const post::Table &rows, const post::Table &expected) {
-  for (const char *column : {"settlement_mm", "modulus_MPa", "stored_J", "contact_heat_J", "drag_heat_J"})
-    EXPECT_LT(relative_difference(after_loads(rows, column), after_loads(expected, column)), 1e-6) << column;
-}
 
 // At these loads the strains are below 1e-4: the modulus differs from that of small strains by so much.
 TEST_P(Oedometer, MeasuresTheModulusOfALattice) {
@@ -152,38 +81,6 @@ TEST_P(Oedometer, MeasuresTheModulusOfALattice) {
   EXPECT_NEAR(stored[0], lattice.volume * (36e6 - 25e6) / (2 * modulus), 1e-3 * stored[0]);
   EXPECT_NEAR(stored[1], lattice.volume * (49e6 - 25e6) / (2 * modulus), 1e-3 * stored[1]);
 }
-
-TEST(OedometerLattice, IsTheSameInBothEngines) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  const Variables variables = small_loads(lattices[0], "0.5");
-  expect_equal(run_oedometer("lammps", variables), run_oedometer("liggghts", variables));
-}
-
-// Other numbers of ranks add forces in another order. The motion of a disordered sample is chaotic, so that
-// only lattices can be compared.
-class ElementTestRanks : public ::testing::TestWithParam<std::tuple<std::string, ElementTest>> {
-protected:
-  void SetUp() override {
-    if (std::get<0>(GetParam()) == "lammps" && !post::has_lammps())
-      GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  }
-};
-
-TEST_P(ElementTestRanks, AgreeOnALattice) {
-  const auto &[engine, test] = GetParam();
-  const post::Table one = run_element_test(engine, test.name, test.variables),
-                    two = run_element_test(engine, test.name, test.variables, 2);
-  ASSERT_EQ(two.rows(), one.rows());
-  for (const char *column : test.columns)
-    EXPECT_LT(relative_difference(after_loads(two, column), after_loads(one, column)), 1e-6) << column;
-}
-
-INSTANTIATE_TEST_SUITE_P(Engines, ElementTestRanks,
-                         ::testing::Combine(::testing::Values("liggghts", "lammps"),
-                                            ::testing::ValuesIn(element_tests)),
-                         [](const auto &of) {
-                           return std::get<0>(of.param) + "_" + std::get<1>(of.param).name;
-                         });
 
 // The state at rest does not depend on the step, the energy error is of second order in it.
 TEST(OedometerLattice, HasASecondOrderEnergyError) {

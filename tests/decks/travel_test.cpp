@@ -1,16 +1,16 @@
 // A drum, a ball or a clump, that fix drum/travel moves over a floor or a row of balls, in both engines: its
-// place against the formulas of the page of the fix, restarts, ranks, friction that makes it roll, a clump
+// place against the formulas of the page of the fix, friction that makes it roll, a clump
 // against its equations of motion, and the energy balance.
 #include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
-#include "tests/support/frame_distance.h"
 #include "tests/support/ode.h"
+
+#include "support/csv.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,25 +20,19 @@ namespace {
 
 constexpr double radius = 0.2, mass = 10, g = 9.81, k = 1e6, overlap = mass * g / k;
 
-/// A row of travel.txt.
+/// A row of travel.csv.
 struct Row {
   double time, pass, place, velocity, traction, torque, work, torque_work, spin, kinetic, springs, heat,
       height, Fe;
   double energy() const { return kinetic + springs + mass * g * height; }
 };
 
-std::vector<Row> read_rows(const std::filesystem::path &file) {
-  std::istringstream in(read_text(file));
-  std::vector<Row> rows;
-  for (std::string line; std::getline(in, line);) {
-    Row row{};
-    std::istringstream numbers(line);
-    double *const first = &row.time;
-    int count = 0;
-    while (count < 14 && numbers >> first[count])
-      ++count;
-    if (count == 14) rows.push_back(row);
-  }
+std::vector<Row> read_rows(const Scratch &folder) {
+  const post::Table table = post::read_table(folder / "travel.csv");
+  std::vector<Row> rows(table.rows());
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    for (std::size_t column = 0; column < table.header().size(); ++column)
+      (&rows[n].time)[column] = post::number_from_text(table.row(n)[column]);
   return rows;
 }
 
@@ -65,10 +59,6 @@ struct Programme {
 
 class TravellingDrum : public BothEngines {
 protected:
-  static std::string engine() { return std::get<0>(GetParam()); }
-  static std::string deck(const std::string &name) {
-    return name + (engine() == "lammps" ? ".lammps" : ".in");
-  }
   static bool second() { return std::get<1>(GetParam()) == "second"; }
 };
 
@@ -100,7 +90,7 @@ TEST_P(TravellingDrum, IsWhereTheProgrammeSaysToRoundingAlsoFarFromZero) {
     }
     EXPECT_LT(worst_x, 2 * spacing + 1e-14) << x0;
     EXPECT_LT(worst_v, 1e-12) << x0;
-    const std::vector<Row> rows = read_rows(folder / "travel.txt");
+    const std::vector<Row> rows = read_rows(folder);
     EXPECT_EQ(rows.back().place, 3.5);
     EXPECT_EQ(rows.back().pass, 3);
   }
@@ -215,7 +205,7 @@ TEST_P(TravellingDrum, MovesAClumpAsItsEquationsOfMotion) {
           },
           0, {radius + small - overlap, 0, 0, 0}, {0.1, 0.1, 0.1, 1});
       double worst = 0;
-      const std::vector<Row> rows = read_rows(folder / "travel.txt");
+      const std::vector<Row> rows = read_rows(folder);
       ASSERT_GE(rows.size(), 20u);
       for (const Row &row : rows) {
         if (row.time > 0) exact.advance(row.time);
@@ -251,47 +241,18 @@ TEST_P(TravellingDrum, GoesRoundAPeriodicBoxInOneDirection) {
       const double place = way - lever * std::sin(way / radius);
       EXPECT_NEAR(std::remainder(frame.balls.rbegin()->second.x[0] - place, 2.0), 0, 1e-12) << frame.step;
     }
-    EXPECT_NEAR(read_rows(folder / "travel.txt").back().place, 2, 1e-12);
+    EXPECT_NEAR(read_rows(folder).back().place, 2, 1e-12);
   }
 }
 
-TEST_P(TravellingDrum, ContinuesFromARestartFileBitwiseInAPassAndInATurnAlsoOnRanks) {
-  for (const char *first : {"2000", "5500", "6200"}) { // at full speed, in the ramp, in the pause
-    for (const auto &[rotation, balls] : {std::pair{"driven", "0"}, std::pair{"towed", "0"},
-                                          std::pair{"driven radius 0.2", "24"}, std::pair{"towed", "24"}}) {
-      const bool ramp = first[0] == '5', towed = rotation[0] == 't';
-      if (balls[0] == '2' && ramp != towed) continue; // a clump is towed in the ramp, and driven else
-      const Scratch stayed, left;
-      const Variables variables = {
-          {"words", std::string("from 0 to 0.5 speed 1 ramp 0.1 pause 0.05 passes 2 rotation ") + rotation},
-          {"clump", balls},
-          {"excitation", "amplitude 50 frequency 20 travel travel"},
-          {"row", "1"},
-          {"first", first},
-          {"steps", "3000"}};
-      well(run("travel", stayed, variables));
-      well(run("travel.resume", left, with(variables, {{"start", (stayed / "first.restart").string()}})));
-      const std::string all = read_text(stayed / "balls.txt"), rest = read_text(left / "balls.txt");
-      const std::string from = "ITEM: TIMESTEP\n" + std::to_string(std::stoi(first) + 10) + "\n";
-      ASSERT_NE(rest.find(from), std::string::npos);
-      EXPECT_EQ(all.substr(all.find(from)), rest.substr(rest.find(from))) << first << rotation;
-      const Row one = read_rows(stayed / "travel.txt").back(), two = read_rows(left / "travel.txt").back();
-      EXPECT_EQ(one.work, two.work);
-      EXPECT_EQ(one.torque_work, two.torque_work);
-      EXPECT_EQ(one.traction, two.traction);
-      const Scratch ranks; // two ranks continue, too
-      well(run_deck(test_deck(deck("travel.resume")),
-                    with(with(variables, {{"start", (stayed / "first.restart").string()}}),
-                         {{"stepping", std::get<1>(GetParam())}}),
-                    ranks.path(), 2));
-      EXPECT_LT(distance(read_dump(ranks / "balls.txt"), read_dump(left / "balls.txt")), 1e-9);
-      const Outcome other = run("travel.resume", left,
-                                with({{"words", std::string("from 0 to 0.8 speed 1 rotation ") + rotation}},
-                                     with(variables, {{"start", (stayed / "first.restart").string()}})));
-      EXPECT_TRUE(
-          fails_with(other, {"fix drum/travel: way driven is '", "allowed: those of the run before"}));
-    }
-  }
+TEST_P(TravellingDrum, OfARestartFileIsNotDrivenAnotherWay) {
+  const Scratch folder;
+  const Variables scene = {{"first", "20"}, {"steps", "20"}};
+  well(run("travel", folder, with({{"words", "from 0 to 0.5 speed 1 ramp 0.1"}}, scene)));
+  const Variables other = {
+      {"words", "from 0 to 0.8 speed 1"}, {"again", "1"}, {"start", (folder / "first.restart").string()}};
+  EXPECT_TRUE(fails_with(run("travel", folder, with(other, scene)),
+                         {"fix drum/travel: way driven is '", "allowed: those of the run before"}));
 }
 
 TEST_P(TravellingDrum, KeepsItsProgrammeWithAnotherTimeStep) {
@@ -309,23 +270,6 @@ TEST_P(TravellingDrum, KeepsItsProgrammeWithAnotherTimeStep) {
     EXPECT_NEAR(ball.x[0], programme.way(t), 1e-12) << frame.step;
     EXPECT_NEAR(ball.v[0], programme.velocity(t), 1e-10) << frame.step;
     EXPECT_NEAR(ball.omega[1], programme.velocity(t) / radius, 1e-9) << frame.step;
-  }
-}
-
-TEST_P(TravellingDrum, IsTheSameOnTwoRanks) {
-  const Variables ball = {{"words", "from 0 to 0.9 speed 1 ramp 0.1 passes 2 rotation towed"}};
-  const std::string way = "from 0 to 0.9 speed 3 ramp 0.01 rotation ";
-  for (const Variables &kind : {ball, ring(way + "driven radius 0.2"), ring(way + "towed")}) {
-    const Variables variables =
-        with(kind, {{"row", "1"}, {"stepping", std::get<1>(GetParam())}, {"steps", "500"}});
-    const Scratch one, two;
-    well(run_deck(test_deck(deck("travel")), variables, one.path()));
-    well(run_deck(test_deck(deck("travel")), variables, two.path(), 2));
-    EXPECT_LT(distance(read_dump(one / "balls.txt"), read_dump(two / "balls.txt")), 1e-9);
-    const Row a = read_rows(one / "travel.txt").back(), b = read_rows(two / "travel.txt").back();
-    EXPECT_NEAR(a.work, b.work, 1e-9 * std::fabs(a.work));
-    EXPECT_NEAR(a.torque_work, b.torque_work, 1e-9 * std::fabs(a.torque_work));
-    EXPECT_NEAR(a.traction, b.traction, 1e-6 * mass * g);
   }
 }
 
@@ -350,7 +294,7 @@ TEST_P(TravellingDrum, SlidesUntilItRollsAsTheClosedFormOfASlidingBall) {
     const double gain = mu * mass * g * lever / kind.inertia, rolls = 1 / lever / gain;
     double mean = 0;
     int count = 0;
-    for (const Row &row : read_rows(folder / "travel.txt")) {
+    for (const Row &row : read_rows(folder)) {
       // The spring of friction is stretched at first, and gives a little spin less: mu N over its stiffness.
       if (row.time > 0.1 * rolls && row.time < 0.98 * rolls) {
         EXPECT_NEAR(row.spin / (gain * row.time), 1, second() ? 1e-4 : 5e-3) << row.time;
@@ -375,7 +319,7 @@ TEST_P(TravellingDrum, IsSlowedByRollingResistanceWithTheHeatOfItsTraction) {
             {"mu_r", "0.05"},
             {"mu", "0.5"},
             {"steps", "11000"}}));
-  const std::vector<Row> rows = read_rows(folder / "travel.txt");
+  const std::vector<Row> rows = read_rows(folder);
   const auto at = [&](double time) {
     return *std::find_if(rows.begin(), rows.end(), [&](const Row &row) { return row.time > time - 1e-6; });
   };
@@ -398,7 +342,7 @@ TEST_P(TravellingDrum, BalancesItsEnergyOverARowOfBalls) {
         Kind{"driven radius 0.2", "24", "0.1"}, Kind{"towed", "24", "0.1"},
         Kind{"towed inertia 0.35", "24", "0.1"}, Kind{"driven radius 0.2", "24", "10"}}) {
     std::vector<double> steps, errors;
-    for (const double dt : {2e-4, 1e-4, 0.5e-4}) {
+    for (const double dt : second() ? std::vector{1e-4, 2e-4, 0.5e-4} : std::vector{1e-4}) {
       const Scratch folder;
       well(run("travel", folder,
                {{"words", std::string("from 0 to 0.5 speed 1 ramp 0.1 passes 2 rotation ") + rotation},
@@ -409,7 +353,7 @@ TEST_P(TravellingDrum, BalancesItsEnergyOverARowOfBalls) {
                 {"steps", std::to_string(std::lround(1.2 / dt))},
                 {"every", std::to_string(std::lround(2e-3 / dt))}}));
       double worst = 0, most = 0;
-      const std::vector<Row> rows = read_rows(folder / "travel.txt");
+      const std::vector<Row> rows = read_rows(folder);
       for (const Row &row : rows) {
         const double balance = row.energy() + row.heat - row.work - row.torque_work;
         worst = std::max(
@@ -419,7 +363,7 @@ TEST_P(TravellingDrum, BalancesItsEnergyOverARowOfBalls) {
       steps.push_back(1 / dt);
       errors.push_back(worst / most);
     }
-    EXPECT_LT(errors[1], 1e-3) << rotation << ' ' << balls;
+    EXPECT_LT(errors[0], 1e-3) << rotation << ' ' << balls;
     if (second()) {
       EXPECT_LT(fitted_order(steps, errors), -1.7)
           << rotation << ' ' << balls << ' ' << errors[0] << ' ' << errors[1] << ' ' << errors[2];
@@ -434,32 +378,12 @@ TEST_P(TravellingDrum, VibratesWithTheShareOfItsSpeed) {
             {"excitation", "amplitude 50 frequency 20 phase 0.3 travel travel"},
             {"steps", "13000"}}));
   double most = 0;
-  for (const Row &row : read_rows(folder / "travel.txt")) {
+  for (const Row &row : read_rows(folder)) {
     EXPECT_NEAR(row.Fe, 50 * std::fabs(row.velocity) * std::sin(2 * pi * 20 * row.time + 0.3), 1e-8)
         << row.time;
     most = std::max(most, std::fabs(row.Fe));
   }
   EXPECT_GT(most, 49.9);
-}
-
-TEST(TravellingDrumInBothEngines, IsTheSame) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  for (const auto &[rotation, balls] :
-       {std::pair{"none", "0"}, std::pair{"driven", "0"}, std::pair{"towed", "0"},
-        std::pair{"driven radius 0.2", "24"}, std::pair{"towed", "24"}}) {
-    const Variables variables = {
-        {"words", std::string("from 0 to 0.5 speed 2 ramp 0.01 passes 2 rotation ") + rotation},
-        {"clump", balls},
-        {"row", "1"},
-        {"rolling", "epsd2"},
-        {"steps", "500"}};
-    const Scratch one, two;
-    well(run_deck(test_deck("travel.in"), variables, one.path()));
-    well(run_deck(test_deck("travel.lammps"), variables, two.path()));
-    EXPECT_LT(distance(read_dump(one / "balls.txt"), read_dump(two / "balls.txt")), 1e-9) << rotation;
-    const Row a = read_rows(one / "travel.txt").back(), b = read_rows(two / "travel.txt").back();
-    EXPECT_NEAR(a.work, b.work, 1e-9 * std::fabs(a.work)) << rotation;
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, TravellingDrum, engines_and_steppings(), engine_and_stepping);

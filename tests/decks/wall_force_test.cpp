@@ -91,26 +91,26 @@ TEST_P(WallForce, IsTheMomentumThatTheWallsGive) {
 }
 
 TEST(WallForceOnRanks, IsThatOnOne) {
-  for (const auto &[deck, newton] : {std::pair("wall_force.in", "off"), std::pair("wall_force.lammps", "off"),
-                                     std::pair("wall_force.lammps", "on")}) {
-    const bool lammps = std::string(deck) == "wall_force.lammps";
+  for (const auto &[engine, newton] :
+       {std::pair("liggghts", "off"), std::pair("lammps", "off"), std::pair("lammps", "on")}) {
+    const bool lammps = std::string(engine) == "lammps";
     if (lammps && !post::has_lammps()) continue;
     const Variables walls = lammps ? Variables{} : mesh_with_stress;
     Table one;
     for (const int ranks : {1, 2}) {
       const Scratch folder;
       write_floor(folder / "floor.stl", 0.4, false);
-      const Outcome outcome = well(
-          run_deck(test_deck(deck), with(walls, {{"newton", newton}, {"rolling", "epsd2"}, {"store", "yes"}}),
-                   folder.path(), ranks));
+      const Outcome outcome = well(run_scene(
+          engine, "wall_force", with(walls, {{"newton", newton}, {"rolling", "epsd2"}, {"store", "yes"}}),
+          folder.path(), ranks));
       const Table rows = table_of(outcome.output, lammps ? 8 : 17);
       ASSERT_EQ(rows.size(), 3001u) << outcome.output;
-      EXPECT_LT(missing_momentum(rows, force, 1), 1e-12) << deck << ", ranks " << ranks;
+      EXPECT_LT(missing_momentum(rows, force, 1), 1e-12) << engine << ", ranks " << ranks;
       if (ranks == 1) one = rows;
       for (std::size_t n = 0; n < rows.size(); n += 100)
         for (std::size_t column = force; column < rows[n].size(); ++column)
           EXPECT_NEAR(rows[n][column], one[n][column], 1e-6 * (1 + std::fabs(one[n][column])))
-              << deck << ", newton " << newton << ", step " << n << ", column " << column;
+              << engine << ", newton " << newton << ", step " << n << ", column " << column;
     }
   }
 }
@@ -123,14 +123,14 @@ TEST(ForceOnAMesh, IsTheWeightOfAShakenBallOnAverage) {
     for (const char *D : {"5", "20", "200"}) {
       const Scratch folder;
       write_floor(folder / "floor.stl", 0.4, false);
-      const Outcome outcome = well(run_deck(test_deck("wall_force.in"),
-                                            with(mesh_with_stress, {{"alone", "1"},
-                                                                    {"normal", normal},
-                                                                    {"D", D},
-                                                                    {"amplitude", "2e-3"},
-                                                                    {"steps", "30000"},
-                                                                    {"store", "yes"}}),
-                                            folder.path()));
+      const Outcome outcome = well(run_scene("liggghts", "wall_force",
+                                             with(mesh_with_stress, {{"alone", "1"},
+                                                                     {"normal", normal},
+                                                                     {"D", D},
+                                                                     {"amplitude", "2e-3"},
+                                                                     {"steps", "30000"},
+                                                                     {"store", "yes"}}),
+                                             folder.path()));
       const Table rows = table_of(outcome.output, 17);
       ASSERT_EQ(rows.size(), 12 * period + 1);
       double mean = 0;
@@ -162,15 +162,15 @@ TEST(ForceOnAMesh, GivesItsTorqueStressAndWear) {
     const Scratch folder;
     write_floor(folder / "floor.stl", 0.4, false);
     const Outcome outcome =
-        well(run_deck(test_deck("wall_force.in"),
-                      with(mesh_with_stress, {{"alone", "1"},
-                                              {"stepping", stepping},
-                                              {"D", std::string(stepping) == "second" ? "200" : "5"},
-                                              {"amplitude", "0"},
-                                              {"place", "move 0.2 0.15 0 wear finnie"},
-                                              {"steps", std::to_string(steps)},
-                                              {"store", "yes"}}),
-                      folder.path()));
+        well(run_scene("liggghts", "wall_force",
+                       with(mesh_with_stress, {{"alone", "1"},
+                                               {"stepping", stepping},
+                                               {"D", std::string(stepping) == "second" ? "200" : "5"},
+                                               {"amplitude", "0"},
+                                               {"place", "move 0.2 0.15 0 wear finnie"},
+                                               {"steps", std::to_string(steps)},
+                                               {"store", "yes"}}),
+                       folder.path()));
     const Table rows = table_of(outcome.output, 17);
     ASSERT_EQ(rows.size(), static_cast<std::size_t>(steps) + 1) << outcome.output;
     double wear = 0;

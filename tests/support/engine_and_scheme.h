@@ -1,4 +1,4 @@
-// Tests of scenes that run in LIGGGHTS (NAME.in) and in LAMMPS (NAME.lammps), under either stepping.
+// Tests of scenes in both engines, under either stepping.
 #pragma once
 
 #include "tests/support/engine_runs.h"
@@ -22,7 +22,7 @@ protected:
   static Outcome run(const std::string &scene, const Scratch &folder, Variables variables = {}) {
     const auto &[engine, stepping] = GetParam();
     variables.emplace_back("stepping", stepping);
-    return run_deck(test_deck(scene + (engine == "lammps" ? ".lammps" : ".in")), variables, folder.path());
+    return run_scene(engine, scene, variables, folder.path());
   }
 };
 

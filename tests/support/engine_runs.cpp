@@ -60,6 +60,12 @@ std::string number(double value) { return post::number_text(value); }
 fs::path chain_deck(const std::string &name) { return fs::path(DRUMLIN_SOURCE_DIR) / "inputs/chain" / name; }
 fs::path test_deck(const std::string &name) { return fs::path(DRUMLIN_SOURCE_DIR) / "tests/decks" / name; }
 
+Outcome run_scene(const std::string &engine, const std::string &name, const Variables &variables,
+                  const fs::path &folder, int ranks) {
+  return run_deck(test_deck(engine == "lammps" ? "scene.lammps" : "scene.in"),
+                  with({{"scene", name}}, variables), folder, ranks);
+}
+
 std::vector<Frame> read_dump(const fs::path &file) {
   const std::vector<std::string> columns = {"id", "x",  "y",      "z",      "vx",     "vy",  "vz",  "fx",
                                             "fy", "fz", "omegax", "omegay", "omegaz", "tqx", "tqy", "tqz"};

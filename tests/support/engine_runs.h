@@ -61,6 +61,10 @@ std::string number(double value);
 std::filesystem::path chain_deck(const std::string &name);
 std::filesystem::path test_deck(const std::string &name);
 
+/// Runs a scene of these tests, NAME.scene in tests/decks, in an engine, "liggghts" or "lammps".
+Outcome run_scene(const std::string &engine, const std::string &name, const Variables &variables,
+                  const std::filesystem::path &folder, int ranks = 1);
+
 /// One ball in a dump.
 struct Ball {
   std::array<double, 3> x{}, v{}, f{}, omega{}, torque{};
