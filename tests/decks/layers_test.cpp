@@ -1,11 +1,10 @@
 // Beds of layers, and of a given grading.
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
+#include "tests/support/host_deck.h"
 
 #include "bed/dump_readers.h"
 #include "engine/deck_run.h"
-#include "tests/support/host_deck.h"
-
 #include "runs/parameter_file.h"
 
 #include <fmt/format.h>
