@@ -352,7 +352,7 @@ TEST_P(Absorb, KeepsTheStaticReactionAndBalancesTheEnergyOfAPulse) {
 // Balls on soft springs that cross the borders of the periodic box, and two that touch and keep their
 // reaction.
 TEST_P(Absorb, BallsThatMoveFollowTheOscillator) {
-  if (!second()) return; // of first order
+  if (!second()) return;                                                         // of first order
   constexpr double density = 0.2, cp = 10, cs = 5, H = 8e-4, vx = 2.5, vz = 4.5; // of absorb.moving
   const Scratch folder;
   well(run("absorb", folder,

@@ -249,8 +249,8 @@ TEST_P(TravellingDrum, OfARestartFileIsNotDrivenAnotherWay) {
   const Scratch folder;
   const Variables scene = {{"first", "20"}, {"steps", "20"}};
   well(run("travel", folder, with({{"words", "from 0 to 0.5 speed 1 ramp 0.1"}}, scene)));
-  const Variables other = {{"words", "from 0 to 0.8 speed 1"},
-                           {"again", "1"}, {"start", (folder / "first.restart").string()}};
+  const Variables other = {
+      {"words", "from 0 to 0.8 speed 1"}, {"again", "1"}, {"start", (folder / "first.restart").string()}};
   EXPECT_TRUE(fails_with(run("travel", folder, with(other, scene)),
                          {"fix drum/travel: way driven is '", "allowed: those of the run before"}));
 }
