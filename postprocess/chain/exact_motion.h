@@ -118,9 +118,9 @@ public:
   void finish_cycle(Motion &motion, Observer *observer = nullptr) const;
   /// The same to a time within the cycle [s].
   void go_to(double end, Motion &motion, Observer *observer = nullptr) const;
-  /// The soil is from now on that of another section of the way. Its stiffness and damping may jump: under B
-  /// a contact ends if its force would become a tension, and begins if soil that has overlapped without force
-  /// would be compressed.
+  /// Changes the soil to that of the next section of the way. Its stiffness and damping may jump. Under B the
+  /// contact then ends if the new law gives a tension, and begins if the surfaces overlap and the new law
+  /// gives a compression.
   void drive_over(const WaySection &section, Motion &motion, Observer *observer = nullptr);
 
 protected:

@@ -32,7 +32,7 @@ std::string ExactOptions::invalid() const {
 
 namespace {
 
-/// Of a chain that stands, after a fast decay.
+/// Pieces in which a cycle of a chain that does not drive is computed, see most_cycles().
 double pieces_per_cycle(const ChainParameters &parameters) {
   const double longest =
       std::min(PhaseDynamics(parameters, parameters.k, parameters.damping()).longest_piece(),

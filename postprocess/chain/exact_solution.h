@@ -51,10 +51,10 @@ struct ExactSolution {
   long pieces = 0;                  ///< of the motion: the computing effort
 };
 
-/// The largest number of cycles of a chain that stands, or that is solved within minutes: a motion that
-/// oscillates or decays much faster than the exciter needs very many pieces per cycle. One very fast decay,
-/// of a heavily damped contact or bond, costs nothing, since its closed form is known; of two, the slower
-/// counts.
+/// The largest number of cycles of a chain, one that does not drive, that can be solved within minutes. The
+/// solution is computed in pieces that must be short beside the fastest vibration and decay of the machine,
+/// so that a machine much faster than its exciter has few cycles. One decay, the fastest, does not count:
+/// that of a heavily damped contact or bond has a closed form.
 double most_cycles(const ChainParameters &parameters);
 
 /// Empty if the options have no more cycles than can be solved within minutes; else one line that names their

@@ -77,7 +77,7 @@ double way_error(const fs::path &folder) {
   return pair.rms(pair.from_rest(pair.run.x_drum), pair.from_rest(pair.exact.history.x_drum));
 }
 
-/// NaN if the events do not match one by one.
+/// Largest error of the times of makes and breaks, over the period; NaN if they do not match one by one.
 double event_time_error(const fs::path &folder) {
   const ChainPair pair(folder);
   const EventMatch match = match_events(read_events(folder / "events.csv"), pair.exact.events);
@@ -85,7 +85,7 @@ double event_time_error(const fs::path &folder) {
   return all ? match.largest_difference / pair.chain.period() : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Of a run of chain/in.impact: the speed at its end.
+/// Error of the drum's speed at the end of a run of chain/in.impact, over the speed of the impact.
 double rebound_error(const fs::path &folder) {
   const RunParameters given(folder);
   const ImpactParameters p{given.transition(), given.number("m2"), given.number("k"), given.number("D"),
@@ -93,7 +93,7 @@ double rebound_error(const fs::path &folder) {
   const ChainHistory history = read_chain(folder / "chain.csv");
   const double end = impact_duration(p), w0 = std::sqrt(p.stiffness / p.mass), last = history.time.back();
   const bool leaves = end < last - 0.01 / w0;
-  // It starts half a step of free flight above the soil.
+  // The drum starts above the soil and flies for half a time step until it touches it.
   const ImpactState exact = impact_state(p, leaves ? end : last - 0.5 * given.number("timestep"));
   return std::fabs(history.v_drum.back() + exact.rate) / p.speed;
 }

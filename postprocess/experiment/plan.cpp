@@ -833,7 +833,7 @@ Plan Plan::with_balls(int balls) const {
 Plan Plan::quick() const {
   Plan plan = can_be_scaled() ? with_balls(std::min(quick_balls, scenes.front().bed->packing.balls)) : *this;
   if (plan.scenes.size() > quick_scenes) plan.scenes.resize(quick_scenes);
-  // Without those that only scenes left out have.
+  // A quantity that only scenes left out have known values of is left out with them.
   plan.quantities.erase(std::remove_if(plan.quantities.begin(), plan.quantities.end(),
                                        [&](const Quantity &quantity) {
                                          return knows(quantity.name) && !plan.knows(quantity.name);

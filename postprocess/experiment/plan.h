@@ -15,7 +15,7 @@ namespace drumlin::post {
 /// An axis over which the page draws the results of scenes that have a place on it.
 struct Axis {
   std::string name, label; ///< the label with unit
-  bool is_log = false;     ///< as the axis of the quantities then is, too
+  bool is_log = false;     ///< figures over it are logarithmic in both directions
 };
 
 /// What differs, in words, and the scenes in which it does: each pair is a scene and the one that it is
@@ -46,7 +46,7 @@ struct Plan {
   std::vector<Scene> scenes; ///< the first is that to which bed sizes refer
   std::vector<Comparison> comparisons;
   double between_engines =
-      0.0; ///< largest difference of a scene in LAMMPS from its twin, as an error of Expected
+      0.0; ///< allowed difference of a scene in LAMMPS from the same in LIGGGHTS, over the scale of Expected
   std::vector<PublishedPoint> published;
   std::vector<std::filesystem::path> files; ///< with known values and published points
   std::string text;                         ///< of a file with this plan

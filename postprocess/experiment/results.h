@@ -96,8 +96,8 @@ struct Judged {
   double found = 0.0; ///< mean over the seeds
   double error = 0.0; ///< its difference from the known value, over the scale
   double difference =
-      0.0;            ///< of a scene in LAMMPS, that from its twin in LIGGGHTS, over the same scale; else 0
-  bool holds = false; ///< false if the runs do not give the quantity, too
+      0.0;            ///< of a scene in LAMMPS from the same in LIGGGHTS, over the same scale; in LIGGGHTS 0
+  bool holds = false; ///< within the tolerance; false if the runs do not give the quantity
 };
 /// Those of the scenes that have runs.
 std::vector<Judged> judged(const Plan &plan, const Results &results);

@@ -26,8 +26,8 @@ struct RunOptions {
 ///   index.html  tables and figures
 ///   runs/       if `keep`: the files of each run, in a folder for its scene and seed
 /// Runs of parts that make_part() has made in its folder `parts` are taken over. A run that fails does not
-/// stop the others: the page names it, and std::runtime_error is thrown at the end; so it is if a known value
-/// is not met.
+/// stop the others: the page names it. std::runtime_error is thrown at the end if a run has failed or a known
+/// value is not met.
 void run_experiment(const Plan &plan, const std::filesystem::path &out, const RunOptions &options);
 
 /// Makes a part of the runs, in a folder of its own that a ResumedFolder holds: beds/, runs.csv and runs/.

@@ -70,7 +70,7 @@ struct Scene {
 
   std::vector<Expected> expected = {}; ///< each quantity once for each source
   std::string family = {};             ///< the name in the plan, which scenes share that a line `over` makes
-  std::string twin = {};               ///< the scene in LIGGGHTS of which this is the one in LAMMPS
+  std::string twin = {};               ///< for a scene in LAMMPS: the name of the same scene in LIGGGHTS
 };
 
 /// One of its decks: the scene's own, or the one beside it that makes its bed, for the same engine.
@@ -91,7 +91,8 @@ Scene scaled(Scene scene, int balls, int of);
 /// All that a scene's soil is made of but the seed: scenes with the same text share their settled soil.
 std::string soil_text(const Scene &scene);
 
-/// The first known value of a scene's quantity; nullptr if there is none.
+/// The value that the plan expects of a quantity in a scene (line `expect`), the first if there are several;
+/// nullptr if it expects none.
 const Expected *known_value(const Scene &scene, const std::string &quantity);
 
 /// Names and values one after the other.

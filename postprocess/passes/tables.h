@@ -12,7 +12,7 @@
 
 namespace drumlin::post {
 
-/// A cell of a table; empty for NaN and for no value.
+/// The text of a number in a CSV cell; empty if the number is NaN or absent.
 std::string cell_of(double value);
 std::string cell_of(std::optional<double> value);
 

@@ -182,9 +182,9 @@ TEST(TiltingBody, HasMassInertiaAndMotionOfItsBalls) {
   }
 }
 
-// The shares have the force and the moment of the forces and do the same work. They keep the balls on a
-// straight axle, whose places along it do not change relative to each other: the accelerations of all balls
-// lie on the line through those of two. No other shares do.
+// Force and moment on the rigid drum are shared out to the balls on its axle. The shares have the same sum,
+// moment and power as the forces. They also keep the axle straight and its balls at constant distances:
+// accelerations change linearly along the axle. Only one set of shares does all this.
 TEST(TiltingBody, SharesOutForceAndMoment) {
   for (unsigned seed = 1; seed < 50; ++seed) {
     Body body(seed);
@@ -383,8 +383,8 @@ TEST(Excitation, TurnsByTheIntegralOfItsFrequency) {
   for (const double target : {80.0 * pi, 0.0, 20.0 * pi}) {
     Excitation e = swept();
     e.sweep_frequency = target;
-    // The rotor, from rest at the start, with the frequency as the user describes it: straight from w to w2,
-    // then w2.
+    // An ODE solver turns the eccentric mass with the frequency that the user asked for: it changes linearly
+    // from w to w2 during the sweep, and stays at w2.
     for (const double t : {0.25, 0.3, 1.0, 1.7499, 1.75, 1.7501, 2.5}) {
       oracle::Ode rotor(
           [&](double, const oracle::State &y, oracle::State &f) {

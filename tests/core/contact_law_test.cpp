@@ -193,8 +193,8 @@ TEST(EffectiveMass, OfAFixedPartnerIsTheOtherBallsMass) {
 
 } // namespace law
 
-// Contacts of two materials: the series of two springs as the state of least energy, found by a library, and
-// the limits of the rule.
+// Contacts of balls of two materials act as two springs in series. Oracle: a library's minimiser finds how
+// both springs share the overlap so that their energy is least. Besides, the limits of the mixing rule.
 namespace mixing {
 
 using namespace drumlin;

@@ -19,9 +19,9 @@
 namespace drumlin::test {
 namespace {
 
-// Variables of the decks of inputs: which names a deck has, and the rule of each, without the engine where it
-// is not needed. That a rule refuses what it should is in engine/drumlin_check; that each deck applies its
-// own, in decks/.
+// The variables of each deck in inputs/: their names and the rules for their values, mostly read without an
+// engine. The table engine/drumlin_check shows that each kind of rule refuses wrong values, the tables in
+// decks/ that each deck applies its rules.
 namespace decks {
 
 namespace fs = std::filesystem;
@@ -170,8 +170,8 @@ TEST(RefusedDecks, BracesStayAsTheyAreInLammps) {
 } // namespace decks
 
 // Damaged files given to the decks of the bed, as tests/tools/contracts/fuzz_test.cpp gives them to the
-// tools: each deck ends within 20 s in a result or in one line of error, and leaves nothing half-written. The
-// number of a mutant is the seed of its faults.
+// tools: each deck ends within 200 s in a result or in one line of error, and leaves nothing half-written.
+// The number of a damaged file is the seed of its faults.
 namespace fuzz {
 
 namespace fs = std::filesystem;
@@ -193,13 +193,13 @@ protected:
   static Outcome run(const char *deck, const char *variable, const fs::path &file, const Variables &more,
                      const fs::path &folder) {
     const Variables variables = with(more, {{variable, file.string()}});
-    return post::run_deck(fs::path(DRUMLIN_SOURCE_DIR) / "inputs/bed" / deck, variables, folder, 1, 20.0);
+    return post::run_deck(fs::path(DRUMLIN_SOURCE_DIR) / "inputs/bed" / deck, variables, folder, 1, 200.0);
   }
 
   /// A settled bed of 30 balls, its data file and the bed with its roller, by the names of BedFile.
   static void make(const Scratch &folder) {
     well(post::run_program({DRUMLIN_TOOLS, "bed", "--balls", "30", "--width", "0.3", "--out", "data"}, {},
-                           folder.path(), 20.0));
+                           folder.path(), 200.0));
     well(run("in.settle", "balls", folder / "data", {{"case", "loose"}, {"bed", "soil"}, {"ratio", "0.1"}},
              folder.path()));
     well(run("in.place", "bed", folder / "soil", placing(), folder.path()));

@@ -17,7 +17,8 @@ ChainErrors measure_chain(const ChainParameters &parameters, const std::string &
 ChainErrors measure_engine_law(const std::string &case_name, int steps_per_cycle,
                                const ExactSolution &reference);
 
-/// Single impacts: errors of the restitution.
+/// Runs single impacts that begin at different places within a time step, and compares the speed of rebound
+/// with the exact solution. \param phases number of such places
 ReboundErrors measure_impacts(Transition transition, double damping_ratio, const std::string &stepping,
                               double steps_per_contact, int phases);
 

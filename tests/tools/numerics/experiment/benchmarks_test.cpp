@@ -172,10 +172,10 @@ Values pure_rolling(const SphereSetup &s) {
   return {{"vx", s.vt, s.vt, 1e-5, closed}, {"spin", s.spin, s.vt / s.r1, 1e-5, closed}};
 }
 
-/// Two spheres between floor and ceiling keep their energy.
+/// Two elastic spheres that bounce between a floor and a ceiling: their energy over that at the start is 1.
 Values stack(const SphereSetup & /*s*/) { return {{"stack_energy", 1.0, 1.0, 1e-5, closed}}; }
 
-/// Two spheres at rest on each other.
+/// Two spheres at rest, one on the other on a floor: overlaps from their weights.
 Values rest(const SphereSetup &s) {
   const double below = (s.m1 + s.m2) * s.g / s.k, between = s.m2 * s.g / s.k;
   return {{"floor_overlap", below, below, 1e-8, closed}, {"sphere_overlap", between, between, 1e-8, closed}};
