@@ -200,9 +200,15 @@ TEST_P(Density, MakesTheLoosestAndTheDensestPacking) {
 
 // Shaking brings a packing that keeps its friction from the loosest towards the densest, but not beyond that
 // without friction; a lattice has nowhere to go.
+// 60 Hz with a double amplitude of 0.33 mm are 2.39 g (165 um times 142,122 per second squared, by hand).
 TEST_P(Density, ShakesThePackingUntilItStays) {
-  const post::Table lattice =
-      run_element_test(GetParam(), "density", {{"sample", "hexagonal"}, {"densest", "shaken"}});
+  const Scratch scratch;
+  const Outcome outcome =
+      run_deck(chain_deck("../soil/in.density" + std::string(GetParam() == "lammps" ? ".lammps" : "")),
+               {{"sample", "hexagonal"}, {"densest", "shaken"}}, scratch.path());
+  well(outcome);
+  EXPECT_TRUE(contains(outcome.output, "density: shaken by 50 cycles of 2.39"));
+  const post::Table lattice = post::read_table(scratch / "density.csv");
   EXPECT_NEAR(lattice.numbers("solid_fraction")[1], lattice.numbers("solid_fraction")[0], 5e-4);
   for (const int dimensions : {2, 3}) {
     Variables variables = {{"columns", "10"}, {"layers", "12"}, {"k", "1e7"}};

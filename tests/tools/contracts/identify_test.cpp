@@ -286,6 +286,7 @@ TEST_F(IdentifyCommand, ReadsAMeasuredRecord) {
   const post::Table table = post::read_table(scratch_ / "found/identify.csv");
   EXPECT_NEAR(table.numbers("k [N/m]").front(), p.k, 1e-3 * p.k);
   EXPECT_NEAR(table.numbers("c [N s/m]").front(), p.damping(), 3e-3 * p.damping());
+  EXPECT_NEAR(table.numbers("D [-]").front(), p.D, 3e-3 * p.D);
 }
 
 // The data of a manufacturer's roller by its file; an option of the command line counts more.
