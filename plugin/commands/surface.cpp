@@ -1,116 +1,13 @@
 #include "commands/commands.h"
+#include "commands/vertical_lines.h"
 
 #include "support/arguments.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <fmt/format.h>
-#include <limits>
 
 namespace drumlin {
-namespace {
 
-using LAMMPS_NS::Domain;
 using LAMMPS_NS::LAMMPS;
-
-/// The middles of equal intervals of one side of the box.
-struct Positions {
-  double low;     ///< m, lower end of the side
-  double spacing; ///< m, length of an interval
-  int count;
-  bool periodic;
-
-  double at(int n) const {
-    return low + (static_cast<double>(n) + 0.5) * spacing; // beyond the box for a periodic image
-  }
-  /// Number of the first one that is not below a coordinate; negative below the box.
-  int first_from(double coordinate) const {
-    const auto n = static_cast<int>(std::ceil((coordinate - low) / spacing - 0.5));
-    return periodic ? n : std::max(n, 0);
-  }
-  bool holds(int n) const { return periodic || n < count; }
-  /// The position in the box of which n is a periodic image.
-  int image(int n) const { return ((n % count) + count) % count; }
-};
-
-/// Vertical lines through the box, and the highest point at which each meets a ball of a group.
-class Lines {
-public:
-  Lines(LAMMPS *engine, Arguments &in, double spacing)
-      : engine_(engine), x_(positions(in, 0, spacing)),
-        z_(engine->domain->dimension == 2 ? Positions{-0.5 * spacing, spacing, 1, false}
-                                          : positions(in, 2, spacing)) {
-    if (static_cast<double>(x_.count) * z_.count > most_lines)
-      in.fail("keyword spacing", fmt::format("{:g}", spacing),
-              fmt::format("a spacing of at most {:g} lines in the box", most_lines));
-  }
-
-  /// Mean of the highest points, over those lines that meet a ball and are at least `beyond` away from
-  /// `middle` along x. NaN if there is none. Collective.
-  double mean_height(int groupbit, double middle, double beyond) const {
-    constexpr double none = -std::numeric_limits<double>::max();
-    std::vector<double> mine(index(x_.count, 0), none);
-    const LAMMPS_NS::Atom &atom = *engine_->atom;
-    for (int i = 0; i < atom.nlocal; ++i)
-      if (atom.mask[i] & groupbit) raise(atom.x[i], atom.radius[i], mine);
-    std::vector<double> highest(mine.size());
-    MPI_Allreduce(mine.data(), highest.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_MAX,
-                  engine_->world);
-    double sum = 0.0;
-    double lines = 0.0;
-    for (int n = 0; n < x_.count; ++n) {
-      if (std::fabs(x_.at(n) - middle) < beyond) continue;
-      for (int m = 0; m < z_.count; ++m) {
-        const double height = highest[index(n, m)];
-        if (height == none) continue;
-        sum += height;
-        lines += 1.0;
-      }
-    }
-    return lines > 0.0 ? sum / lines : std::numeric_limits<double>::quiet_NaN();
-  }
-
-private:
-  static constexpr double most_lines = 1e7;
-
-  /// Where the height of a line is stored.
-  std::size_t index(int n, int m) const {
-    return static_cast<std::size_t>(n) * static_cast<std::size_t>(z_.count) + static_cast<std::size_t>(m);
-  }
-
-  Positions positions(Arguments &in, int axis, double spacing) const {
-    const Domain &domain = *engine_->domain;
-    const double length = domain.boxhi[axis] - domain.boxlo[axis];
-    const double count = std::max(1.0, std::round(length / spacing));
-    if (count > most_lines)
-      in.fail("keyword spacing", fmt::format("{:g}", spacing),
-              fmt::format("a spacing of at most {:g} lines in the box", most_lines));
-    return {domain.boxlo[axis], length / count, static_cast<int>(count), domain.periodicity[axis] != 0};
-  }
-
-  /// Raises the heights of all lines that meet a ball to its upper surface.
-  void raise(const double *centre, double radius, std::vector<double> &heights) const {
-    for (int n = x_.first_from(centre[0] - radius); x_.holds(n); ++n) {
-      const double across = x_.at(n) - centre[0];
-      const double left = radius * radius - across * across; // m2, of the section at this x, a disc
-      if (across > radius) break;
-      if (left < 0.0) continue;
-      const double section = std::sqrt(left);
-      for (int m = z_.first_from(centre[2] - section); z_.holds(m); ++m) {
-        const double along = z_.at(m) - centre[2];
-        if (along > section) break;
-        const double rise = std::sqrt(std::max(0.0, left - along * along));
-        double &height = heights[index(x_.image(n), z_.image(m))];
-        height = std::max(height, centre[1] + rise);
-      }
-    }
-  }
-
-  LAMMPS *engine_;
-  Positions x_, z_;
-};
-
-} // namespace
 
 void surface_command(LAMMPS *lmp, int narg, char **arg) {
   Arguments in(lmp->error, "drumlin/surface", narg, arg);
@@ -130,7 +27,10 @@ void surface_command(LAMMPS *lmp, int narg, char **arg) {
   if (spacing == 0.0) in.fail("keyword spacing is missing; allowed: a finite number > 0");
   if (lmp->domain->box_exist == 0)
     in.fail("simulation box is missing; allowed: the command after create_box or read_data");
-  const double height = Lines(lmp, in, spacing).mean_height(engine::group_bit(group), middle, beyond);
+  const int bit = engine::group_bit(group);
+  const double height =
+      VerticalLines(lmp, in, spacing)
+          .mean_height([&](int i) { return (lmp->atom->mask[i] & bit) != 0; }, middle, beyond);
   if (std::isnan(height))
     in.fail("group", lmp->group->names[group], "one with a ball that a vertical line meets there");
   std::string words[] = {name, "string", fmt::format("{:.17g}", height)};

@@ -317,20 +317,31 @@ std::string packings_file(const PackingOptions &box) {
   return box.dimensions() == 2 ? "bed/packings.gravel.csv" : "bed/packings.gravel3d.csv";
 }
 
+void note_balls(MeasuredPackings &packings, const PackingOptions &box) {
+  const double low = box.smallest_radius(), high = box.largest_radius();
+  packings.dimensions = box.dimensions();
+  packings.spread = (high - low) / (high + low);
+  packings.grading = name_of_grading(box);
+  packings.d50_over_smallest = box.sieve ? grain_sizes(*box.sieve).d50 / box.sieve->smallest() : 0.0;
+}
+
 std::string other_balls(const MeasuredPackings &packings, const PackingOptions &box) {
-  const double ratio = box.largest_radius() / box.smallest_radius(),
-               measured = (1.0 + packings.spread) / (1.0 - packings.spread);
-  constexpr double rounding = 1e-4; // of a spread with a few digits
-  if (name_of_grading(box) == grading_name(Grading::uniform) && packings.dimensions == box.dimensions() &&
-      std::abs(measured / ratio - 1.0) < rounding)
+  MeasuredPackings wanted = packings;
+  note_balls(wanted, box);
+  constexpr double rounding = 1e-4; // of numbers with a few digits
+  const auto equal = [](double a, double b) { return std::abs(a - b) <= rounding * std::abs(b); };
+  const auto ratio = [](const MeasuredPackings &of) { return (1.0 + of.spread) / (1.0 - of.spread); };
+  if (wanted.grading == packings.grading && packings.dimensions == box.dimensions() &&
+      equal(ratio(packings), ratio(wanted)) && equal(packings.d50_over_smallest, wanted.d50_over_smallest))
     return {};
-  const auto balls = [](int dimensions, double largest, const std::string &grading) {
-    return fmt::format("{} with radii from r to {:.4g} r, grading {}", dimensions == 2 ? "discs" : "spheres",
-                       largest, grading);
+  const auto balls = [&](const MeasuredPackings &of) {
+    std::string text = fmt::format("{} with radii from r to {:.4g} r, grading {}",
+                                   of.dimensions == 2 ? "discs" : "spheres", ratio(of), of.grading);
+    if (of.d50_over_smallest > 0.0)
+      text += fmt::format(" with d50 {:.4g} times the smallest size", of.d50_over_smallest);
+    return text;
   };
-  return fmt::format("packings of {}; it has those of {}",
-                     balls(box.dimensions(), ratio, name_of_grading(box)),
-                     balls(packings.dimensions, measured, grading_name(Grading::uniform)));
+  return fmt::format("packings of {}; it has those of {}", balls(wanted), balls(packings));
 }
 
 std::string BedLayer::invalid() const {

@@ -68,6 +68,8 @@ double default_cut(const SieveCurve &curve, const PackingOptions &options);
 
 /// The file in inputs/ with the loosest and the densest packing of balls as `./drumlin bed` makes them.
 std::string packings_file(const PackingOptions &box);
+/// Says of packings that they are of balls as in this box.
+void note_balls(MeasuredPackings &packings, const PackingOptions &box);
 /// Empty if packings were measured of balls like these; else of which, and of which they should be.
 std::string other_balls(const MeasuredPackings &packings, const PackingOptions &box);
 

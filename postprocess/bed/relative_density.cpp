@@ -1,6 +1,5 @@
 #include "bed/relative_density.h"
 
-#include "runs/element_rows.h"
 #include "support/csv.h"
 #include "support/range.h"
 
@@ -82,20 +81,37 @@ const LayerPackings &layer_at(const std::vector<LayerPackings> &layers, double h
   return found == layers.end() ? layers.back() : *found;
 }
 
+std::string packings_csv(const MeasuredPackings &packings) {
+  std::string text = csv_line({"share", "friction", "rolling", "void_ratio", "solid_fraction",
+                               "relative_density", "dimension", "spread", "grading", "d50_over_smallest"});
+  for (const MeasuredPackings::Row &row : packings.rows())
+    text += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4f},{},{:.8g},{},{:.8g}\n", row.share,
+                        row.friction, row.rolling, row.void_ratio, 1.0 / (1.0 + row.void_ratio),
+                        relative_density(row.void_ratio, packings.loosest(), packings.densest()),
+                        packings.dimensions, packings.spread, packings.grading, packings.d50_over_smallest);
+  return text;
+}
+
 MeasuredPackings read_packings(const std::filesystem::path &file) {
-  std::vector<MeasuredPackings::Row> rows;
-  for (const DensityRow &row : read_density(file))
-    rows.push_back({row.share, row.friction, row.rolling, row.void_ratio});
   const Table table = read_table(file);
   for (const char *column : {"dimension", "spread"})
     if (!table.has(column))
       csv_fault(file, 0, column,
                 "is missing; allowed: density.csv of this version's in.density, which says of "
                 "which balls it is");
+  const std::vector<double> share = table.numbers("share"), friction = table.numbers("friction"),
+                            rolling = table.numbers("rolling"), void_ratio = table.numbers("void_ratio");
+  std::vector<MeasuredPackings::Row> rows;
+  for (std::size_t n = 0; n < table.rows(); ++n)
+    rows.push_back({share[n], friction[n], rolling[n], void_ratio[n]});
   try {
     MeasuredPackings packings(std::move(rows));
     packings.dimensions = static_cast<int>(table.numbers("dimension").front());
     packings.spread = table.numbers("spread").front();
+    if (table.has("grading")) {
+      packings.grading = table.text("grading").front();
+      packings.d50_over_smallest = table.numbers("d50_over_smallest").front();
+    }
     return packings;
   } catch (const std::invalid_argument &fault) {
     throw std::runtime_error(fmt::format("{}: allowed: {}", file.string(), fault.what()));

@@ -23,7 +23,13 @@ struct Pouring {
   double solid_fraction() const { return 1.0 / (1.0 + void_ratio); }
 };
 
-/// The packings of a mix that inputs/soil/in.density has measured.
+/// Friction and rolling friction of the balls of a soil, once it lies.
+struct SoilFriction {
+  double friction = 0.8, rolling = 0.45; ///< those of case base and case gravel
+};
+
+/// The packings of a mix that inputs/soil/in.density has measured, or `drumlin bed` with
+/// inputs/bed/in.settle.
 class MeasuredPackings {
 public:
   struct Row {
@@ -37,8 +43,11 @@ public:
   explicit MeasuredPackings(std::vector<Row> rows);
 
   int dimensions = 2;  ///< of the samples
-  double spread = 0.0; ///< radii were between 1 - spread and 1 + spread times their mean, uniformly
+  double spread = 0.0; ///< radii were between 1 - spread and 1 + spread times the mean of both limits
+  std::string grading = "uniform"; ///< every radius as often as any other; else the name of a distribution
+  double d50_over_smallest = 0.0;  ///< of such a distribution
 
+  const std::vector<Row> &rows() const { return rows_; }
   double loosest() const { return rows_.back().void_ratio; }
   double densest() const { return rows_.front().void_ratio; }
   const Row &of_loosest() const { return rows_.back(); }
@@ -46,7 +55,7 @@ public:
   Pouring pouring(double relative) const;
 
 private:
-  std::vector<Row> rows_; ///< in the order of shares
+  std::vector<Row> rows_; ///< in the order of shares, from 0
 };
 
 /// The scale of relative density in a layer of a bed: void ratios of the loosest and the densest packing of
@@ -66,8 +75,10 @@ std::vector<LayerPackings> noted_packings(const std::map<std::string, std::strin
 /// The layer at a height; that above all layers is the highest one.
 const LayerPackings &layer_at(const std::vector<LayerPackings> &layers, double height);
 
-/// Reads density.csv of in.density; std::runtime_error if it is not one, or does not say of which balls it
-/// is.
+/// The table of packings as text: what read_packings() reads.
+std::string packings_csv(const MeasuredPackings &packings);
+/// Reads such a table, or density.csv of in.density; std::runtime_error if it is not one, or does not say of
+/// which balls it is.
 MeasuredPackings read_packings(const std::filesystem::path &file);
 
 } // namespace drumlin::post

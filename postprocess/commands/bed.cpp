@@ -3,6 +3,7 @@
 #include "bed/known_gradings.h"
 #include "bed/relative_density.h"
 #include "commands/commands.h"
+#include "commands/made_packings.h"
 #include "commands/text_options.h"
 #include "engine/deck_run.h"
 #include "pages/figure_data.h"
@@ -59,7 +60,8 @@ struct Arguments {
   std::array<std::string, number_options.size()> numbers;
   std::optional<std::string> sieve, cut;
   std::vector<std::string> layers, spots, relative_densities, packings;
-  bool has_balls = false;        ///< whether --balls was given
+  std::optional<std::string> friction, rolling; ///< of the soil, once it lies
+  bool has_balls = false;                       ///< whether --balls was given
   std::string instead_of_layers; ///< an option that was given and says the same as --layer; empty: none
   std::string instead_of_sieve;  ///< an option that was given and says the sizes in another way; empty: none
 };
@@ -115,33 +117,6 @@ void judge_sieve(const Arguments &arguments, BedRequest &request) {
                             : default_cut(curve, request.packing));
 }
 
-/// The packings of a layer's mix: of `file`, a density.csv of in.density, or, if it is empty, the stored ones
-/// of case gravel.
-MeasuredPackings known_packings(const std::string &file, const std::string &density, bool has_curve,
-                                const PackingOptions &box) {
-  if (has_curve)
-    throw UsageError(
-        refusal("--relative-density", density,
-                "of layers without a sieve curve: inputs/soil/in.density makes no packings of one"));
-  const fs::path path = file.empty() ? input_file(packings_file(box)) : path_option("--packings", file);
-  if (!fs::exists(path))
-    throw UsageError(refusal("--packings", file, "the density.csv of a run of inputs/soil/in.density"));
-  MeasuredPackings packings = [&] {
-    try {
-      return read_packings(path);
-    } catch (const std::runtime_error &fault) {
-      throw UsageError(fault.what());
-    }
-  }();
-  if (const std::string other = other_balls(packings, box); !other.empty())
-    throw UsageError(file.empty()
-                         ? refusal("--relative-density", density,
-                                   "with --packings: the loosest and the densest packing of another mix than "
-                                   "that of case gravel are known when inputs/soil/in.density has made them")
-                         : refusal("--packings", file, other));
-  return packings;
-}
-
 /// What an option given once, or once for each layer, says of a layer; empty: the option is not given.
 std::string of_layer(const char *option, const std::vector<std::string> &given, std::size_t layer,
                      std::size_t layers) {
@@ -152,19 +127,98 @@ std::string of_layer(const char *option, const std::vector<std::string> &given, 
   return given.size() == 1 ? given.front() : given[layer];
 }
 
-/// How a layer is poured to get the relative density that is asked for.
-std::optional<Pouring> asked_pouring(const Arguments &arguments, std::size_t layer, bool has_curve,
-                                     const PackingOptions &box) {
-  const std::size_t layers = arguments.layers.size();
-  const std::string density = of_layer("--relative-density", arguments.relative_densities, layer, layers),
-                    file = of_layer("--packings", arguments.packings, layer, layers);
-  if (density.empty()) {
-    if (!file.empty()) throw UsageError(refusal("--packings", file, "only with --relative-density"));
-    return {};
+/// Friction of the soil, from --friction and --rolling.
+SoilFriction asked_friction(const Arguments &arguments) {
+  SoilFriction soil;
+  constexpr Range range = {0.0, 1e3};
+  if (arguments.friction) soil.friction = number_option("--friction", *arguments.friction, range);
+  if (arguments.rolling) soil.rolling = number_option("--rolling", *arguments.rolling, range);
+  return soil;
+}
+
+/// The packings in a file that --packings names.
+MeasuredPackings given_packings(const std::string &file, const Arguments &arguments,
+                                const PackingOptions &box) {
+  const fs::path path = path_option("--packings", file);
+  if (!fs::exists(path))
+    throw UsageError(
+        refusal("--packings", file,
+                "the density.csv of a run of inputs/soil/in.density, or a table of packings that "
+                "this command has made"));
+  try {
+    MeasuredPackings packings = read_packings(path);
+    if (const std::string other = other_balls(packings, box); !other.empty())
+      throw UsageError(refusal("--packings", file, other));
+    const SoilFriction asked = asked_friction(arguments);
+    const MeasuredPackings::Row &loosest = packings.of_loosest();
+    const auto refuse_other = [&](const char *option, const std::optional<std::string> &given, double wanted,
+                                  double has) {
+      if (given && wanted != has)
+        throw UsageError(refusal(option, *given, fmt::format("{:g}, of which {} has packings", has, file)));
+    };
+    refuse_other("--friction", arguments.friction, asked.friction, loosest.friction);
+    refuse_other("--rolling", arguments.rolling, asked.rolling, loosest.rolling);
+    return packings;
+  } catch (const std::runtime_error &fault) {
+    throw UsageError(fault.what());
   }
-  constexpr Range between = {0.0, 1.0};
-  const double relative = number_option("--relative-density", density, between);
-  return known_packings(file, density, has_curve, box).pouring(relative);
+}
+
+/// The stored packings of case gravel, if they are of such balls and contacts.
+std::optional<MeasuredPackings> stored_packings(const SoilFriction &soil, const PackingOptions &box) {
+  MeasuredPackings packings = read_packings(input_file(packings_file(box)));
+  const SoilFriction gravel;
+  if (!other_balls(packings, box).empty() || soil.friction != gravel.friction ||
+      soil.rolling != gravel.rolling)
+    return {};
+  return packings;
+}
+
+/// Says of each layer how it is poured to get the relative density that is asked for. An engine makes
+/// packings that are not known.
+void pour_layers(const Arguments &arguments, BedRequest &request) {
+  const std::size_t layers = request.layers.size();
+  if (arguments.relative_densities.empty()) {
+    for (const auto &[option, given] :
+         {std::pair{"--packings", arguments.packings.empty() ? nullptr : &arguments.packings.front()},
+          std::pair{"--friction", arguments.friction ? &*arguments.friction : nullptr},
+          std::pair{"--rolling", arguments.rolling ? &*arguments.rolling : nullptr}})
+      if (given != nullptr) throw UsageError(refusal(option, *given, "only with --relative-density"));
+    return;
+  }
+  const SoilFriction soil = asked_friction(arguments);
+  if (!(soil.friction > 0.0))
+    throw UsageError(
+        refusal("--friction", *arguments.friction,
+                "above 0 with --relative-density: without friction all packings are the densest"));
+  struct Wanted {
+    double relative;
+    std::optional<MeasuredPackings> packings;
+  };
+  std::vector<Wanted> wanted;
+  for (std::size_t n = 0; n < layers; ++n) {
+    const std::string density = of_layer("--relative-density", arguments.relative_densities, n, layers),
+                      file = of_layer("--packings", arguments.packings, n, layers);
+    constexpr Range between = {0.0, 1.0};
+    const PackingOptions &box = request.layers[n].bed.packing;
+    wanted.push_back({number_option("--relative-density", density, between),
+                      file.empty() ? stored_packings(soil, box) : given_packings(file, arguments, box)});
+  }
+  for (std::size_t n = 0; n < layers; ++n) {
+    BedLayer &layer = request.layers[n].bed;
+    if (!wanted[n].packings) {
+      const std::string number = layers > 1 ? fmt::format("_{}", n + 1) : "";
+      wanted[n].packings = made_packings(
+          layer, soil, request.density,
+          request.out.parent_path() / fmt::format("{}_packings{}.csv", request.out.stem().string(), number),
+          fmt::format("Layer {}", n + 1));
+    }
+    layer.pouring = wanted[n].packings->pouring(wanted[n].relative);
+    if (arguments.layers.empty())
+      layer.thickness *= layer.packing.balls / static_cast<double>(balls_of(layer));
+    else
+      layer.packing.balls = balls_of(layer);
+  }
 }
 
 /// The n-th layer from THICKNESS[:SIEVE[:CUT]]. \param box what the layer shares with the others; its number
@@ -176,7 +230,6 @@ BedRequest::Layer asked_layer(const Arguments &arguments, std::size_t n, const P
   constexpr std::size_t most_parts = 3;
   if (parts.size() > most_parts) throw UsageError(refusal("--layer", text, "THICKNESS[:SIEVE[:CUT]]"));
   BedRequest::Layer layer{{box, number_option("--layer", parts[0], side)}, {}};
-  layer.bed.pouring = asked_pouring(arguments, n, parts.size() > 1, box);
   if (parts.size() > 1) {
     const auto [curve, name] = asked_grading("--layer", parts[1]);
     layer.asked = curve;
@@ -241,12 +294,20 @@ void judge_spots(const Arguments &arguments, BedRequest &request) {
   }
 }
 
+/// The whole bed as one layer, as thick as its balls make it.
+BedRequest::Layer only_layer(const BedRequest &request) {
+  BedRequest::Layer layer{{request.packing, 1.0}, request.asked};
+  layer.bed.thickness = request.packing.balls / static_cast<double>(balls_of(layer.bed));
+  if (const std::string fault = layer.bed.packing.invalid(); !fault.empty())
+    throw std::invalid_argument(fault);
+  if (const std::string fault = layer.bed.invalid(); !fault.empty()) throw std::invalid_argument(fault);
+  return layer;
+}
+
 /// Sets the layers from `--layer`.
 void judge_layers(const Arguments &arguments, BedRequest &request) {
   if (arguments.layers.empty()) {
-    for (const auto &[option, given] : {std::pair{"--relative-density", &arguments.relative_densities},
-                                        std::pair{"--packings", &arguments.packings}})
-      if (!given->empty()) throw UsageError(refusal(option, given->front(), "only with --layer"));
+    if (!arguments.relative_densities.empty()) request.layers.push_back(only_layer(request));
     return;
   }
   const std::string &first = arguments.layers.front();
@@ -311,6 +372,7 @@ void run(const Arguments &arguments) {
     judge_sieve(arguments, request);
     judge_layers(arguments, request);
     judge_spots(arguments, request);
+    pour_layers(arguments, request);
   } catch (const std::invalid_argument &fault) {
     throw UsageError(fmt::format("--{}", fault.what()));
   }
@@ -467,7 +529,7 @@ void write_bed(const BedRequest &request) {
   }
   fmt::print("{}: {} balls, filled to {:.3f} m\n", out.string(), packing.balls.size(), packing.height);
   for (std::size_t n = 0; n < layers.size(); ++n)
-    fmt::print("Layer {}: {} balls, to be {:g} m thick when it has settled{}\n", n + 1,
+    fmt::print("Layer {}: {} balls, to be {:.3g} m thick when it has settled{}\n", n + 1,
                layers[n].packing.balls, layers[n].thickness, poured_words(layers[n]));
   if (!files) return;
   Figure drawn;
@@ -526,17 +588,25 @@ void add_bed_command(CLI::App &app, Session &) {
          "a part of the lowest layer, along the way, with contacts of its own, such as a soft spot; may "
          "be given several times, in the order of the way; x is 0 in the middle [m]")
       ->type_name("FROM:TO");
-  bed->add_option(
-         "--relative-density", arguments->relative_densities,
-         "of a layer, from 0, the loosest packing of its mix, to 1, the densest; once, or once for each "
-         "--layer: in.settle then pours the layer with the friction that gives it")
+  bed->add_option("--relative-density", arguments->relative_densities,
+                  "of a layer, or of the whole bed, from 0, the loosest packing of its mix, to 1, the "
+                  "densest; once, or once for each "
+                  "--layer: in.settle then pours the layer with the friction that gives it")
       ->type_name("NUMBER");
   bed->add_option(
          "--packings", arguments->packings,
-         "density.csv of inputs/soil/in.density, the loosest and the densest packing of the layer's mix "
-         "and those between; once, or once for each --layer; default: those of case gravel, for its "
-         "radii alone")
+         "table of the loosest and the densest packing of the layer's mix and those between: density.csv of "
+         "inputs/soil/in.density, or OUT_packings.csv of an earlier call; once, or once for each --layer; "
+         "default: the stored ones of case gravel for its radii and friction, else a table beside --out, "
+         "which LIGGGHTS makes once, in some minutes")
       ->type_name("FILE");
+  bed->add_option("--friction", arguments->friction,
+                  "of the soil once it lies, for --relative-density; default: that of case base, 0.8")
+      ->type_name("NUMBER");
+  bed->add_option("--rolling", arguments->rolling,
+                  "rolling friction of the soil once it lies, for --relative-density; default: that of case "
+                  "base, 0.45")
+      ->type_name("NUMBER");
   text_option(bed, "--seed", "COUNT", arguments->seed, "of the random numbers");
   text_option(bed, "--out", "FILE", arguments->out, "the data file; its folder is made if missing");
   bed->callback([arguments, bed] {

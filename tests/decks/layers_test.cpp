@@ -358,7 +358,10 @@ TEST_P(LayeredBed, IsPouredForItsRelativeDensity) {
   EXPECT_TRUE(printed(run_deck(deck, with(variables, {{"friction", "0.5"}}), folder.path()),
                       "variable friction is '0.5'; allowed: 0.8,0.8, of the soil whose loosest and densest "
                       "packing balls notes"));
-  well(run_deck(deck, variables, folder.path()));
+  const Outcome settled = run_deck(deck, variables, folder.path());
+  well(settled);
+  EXPECT_TRUE(settled.says(" where 0 was asked for\n")) << settled.output;
+  EXPECT_TRUE(settled.says(" where 1 was asked for\n"));
   const std::string text = read_text(folder / "soil.data");
   for (const char *note : {"seed 1\n", "packings_friction 0.8,0.8\n", "poured 1e8/0.3/0.8,0/0.45,0/0\n",
                            "relative_density 0,1\n", "e_loosest 0.29,0.29\n", "e_densest 0.19,0.19\n",

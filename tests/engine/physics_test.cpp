@@ -261,5 +261,76 @@ TEST(Surface, ReachesAcrossAPeriodicSide) {
 
 } // namespace surface
 
+// drumlin/density of two layers of a square or cubic lattice, beside sections summed over the height.
+namespace density {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double radius = 0.1; // m
+constexpr int rows_of_lower = 8, rows = 16;
+
+/// Share of solids between two heights: balls touch each other, the lowest the floor.
+double solids_between(double from, double to, bool flat) {
+  constexpr int slices = 200000;
+  const double slice = (to - from) / slices;
+  double sum = 0.0;
+  for (int n = 0; n < slices; ++n) {
+    const double y = from + (n + 0.5) * slice;
+    const double off = y - radius * (1.0 + 2.0 * std::floor(y / (2.0 * radius)));
+    const double square = y < 2.0 * radius * rows ? radius * radius - off * off : 0.0;
+    sum += flat ? 2.0 * std::sqrt(square) / (2.0 * radius) : pi * square / (4.0 * radius * radius);
+  }
+  return sum / slices;
+}
+
+std::string lattice_deck(bool flat, const std::string &sides) {
+  return fmt::format(
+      "units si\natom_style granular\natom_modify map array\nnewton off\ncommunicate single vel yes\n"
+      "dimension {}\nboundary {} f p\nregion box block -1 1 0 4 {} {} units box\ncreate_box 4 box\n"
+      "lattice {} 0.2 origin 0.5 0.5 {}\nregion soil block -1 1 0 {} INF INF units box\n"
+      "create_atoms 1 region soil\nregion upper block INF INF {} INF INF INF units box\n"
+      "group upper region upper\nset group upper type 4\nset group all diameter 0.2\n"
+      "drumlin/density tops all layers 2 scale 0.5,0.5 0.2,0.2 0.5,1\nprint \"tops ${{tops}}\"\n",
+      flat ? 2 : 3, sides, flat ? -0.1 : -0.4, flat ? 0.1 : 0.4, flat ? "sq" : "sc", flat ? 0.0 : 0.5,
+      2.0 * radius * rows, 2.0 * radius * rows_of_lower);
+}
+
+double number_behind(const std::string &output, const std::string &mark) {
+  const std::size_t at = output.rfind(mark);
+  EXPECT_NE(at, std::string::npos) << mark << "\n" << output;
+  return at == std::string::npos ? NAN : std::strtod(output.c_str() + at + mark.size(), nullptr);
+}
+
+TEST(Density, OfLayersOfALatticeIsThatOfItsSections) {
+  for (const bool flat : {true, false})
+    for (const std::string sides : {"p", "f"})
+      for (const int ranks : {1, 2}) {
+        SCOPED_TRACE(fmt::format("flat {}, sides {}, ranks {}", flat, sides, ranks));
+        const Scratch scratch;
+        write_text(scratch / "lattice.in", lattice_deck(flat, sides));
+        const Outcome outcome = run_engine(scratch / "lattice.in", {}, scratch.path(), ranks);
+        ASSERT_TRUE(outcome.ok()) << outcome.output;
+        const double first = number_behind(outcome.output, "\ntops ");
+        const double second = number_behind(outcome.output, fmt::format("\ntops {:.17g},", first));
+        const double rise = radius * (flat ? pi / 4.0 : pi / 6.0); // mean, of a row of touching balls
+        EXPECT_NEAR(first, radius * (2 * rows_of_lower - 1) + rise, 0.05 * radius);
+        EXPECT_NEAR(second - first, 2.0 * radius * (rows - rows_of_lower), 1e-12);
+        double below = 0.0;
+        for (const auto &[layer, top] : {std::pair{1, first}, std::pair{2, second}}) {
+          // Two diameters are more than a quarter of the thickness.
+          const double beside = 0.25 * (top - below);
+          const double phi = solids_between(below + beside, top - beside, flat);
+          const std::string line =
+              fmt::format("drumlin/density: layer {}, {:.3f} to {:.3f} m: solid fraction ", layer, below, top);
+          EXPECT_NEAR(number_behind(outcome.output, line), phi, 6e-5);
+          below = top;
+        }
+        const double found = (0.5 - (1.0 / solids_between(0.25 * first, 0.75 * first, flat) - 1.0)) / 0.3;
+        EXPECT_EQ(outcome.says("WARNING: drumlin/density: layer 1 is "), std::fabs(found - 0.5) > 0.2);
+        EXPECT_TRUE(outcome.says("WARNING: drumlin/density: layer 2 is looser than asked for, by "));
+      }
+}
+
+} // namespace density
+
 } // namespace
 } // namespace drumlin::test
