@@ -247,6 +247,7 @@ void add_study_command(CLI::App &app, Session &) {
       "  base       what yield, suction and density do for a roller on a base course\n"
       "  box        what width, depth, walls and absorbing sides of the box change\n"
       "  cyclic     what cyclic simple shear does to loose and to dense soil\n"
+      "  loosening  why a bed loosens under a roller\n"
       "  damping    where the energy of a cycle goes, and which damping follows\n"
       "  fidelity   effect and time of each part of a bed's model; `drumlin advise --bed` answers "
       "from it\n"

@@ -393,18 +393,32 @@ std::string answer_of(const Results &results) {
 /// What the densities are worth, told before them.
 std::string worth_of(const Results &results) {
   std::vector<std::string> loosened;
+  std::string too_dense;
+  // The densest that vertical shaking leaves of soil as case gravel, inside (inputs/study/cyclic).
+  const double shaken = results.front().flat ? 0.825 : 0.610;
   const std::size_t layers = results.front().layers();
-  for (std::size_t layer = layers; layer-- > 0;)
+  for (std::size_t layer = layers; layer-- > 0;) {
+    const std::string name = layer + 1 == layers ? "the lift" : fmt::format("layer {}", layer + 1);
     if (const MeanInterval gain = gain_of(results, layer); gain.significant() && gain.mean < 0.0)
-      loosened.push_back(layer + 1 == layers ? "the lift" : fmt::format("layer {}", layer + 1));
+      loosened.push_back(name);
+    const double before = mean_after(results, 0, [layer](const PassValues &pass) {
+                            return pass.soil.inner_solid_fraction(layer);
+                          }).mean;
+    if (before > shaken)
+      too_dense +=
+          fmt::format(" Inside, {} began at a solid fraction of {:.3f}; shaking leaves at most {:.3f} "
+                      "of such soil, so that it can only loosen: disregard how its density changes.",
+                      name, before, shaken);
+  }
   if (loosened.empty())
     return "What the densities are worth: they may be compared with those of other runs, not with a site. "
            "Dense "
-           "soil of this model loosens under a roller, which that of a site does not.";
+           "soil of this model loosens under a roller, which that of a site does not." +
+           too_dense;
   return fmt::format("This result contradicts experience: {} loosened under the roller. Disregard solid "
                      "fractions, degrees of compaction and settlement; forces and meter values are those on "
-                     "soil of such a density.",
-                     fmt::join(loosened, " and "));
+                     "soil of such a density.{}",
+                     fmt::join(loosened, " and "), too_dense);
 }
 
 void write_passes_page(const std::filesystem::path &folder, const Results &results, const JudgedMap &judged) {

@@ -311,7 +311,7 @@ TEST(Density, OfLayersOfALatticeIsThatOfItsSections) {
         ASSERT_TRUE(outcome.ok()) << outcome.output;
         const double first = number_behind(outcome.output, "\ntops ");
         const double second = number_behind(outcome.output, fmt::format("\ntops {:.17g},", first));
-        const double rise = radius * (flat ? pi / 4.0 : pi / 6.0); // mean, of a row of touching balls
+        const double rise = radius * (flat ? pi / 4.0 : 2.0 / 3.0); // mean, over lines that meet a ball
         EXPECT_NEAR(first, radius * (2 * rows_of_lower - 1) + rise, 0.05 * radius);
         EXPECT_NEAR(second - first, 2.0 * radius * (rows - rows_of_lower), 1e-12);
         double below = 0.0;
