@@ -158,8 +158,8 @@ void expect_same(const post::Table &a, const post::Table &b, std::size_t rows, d
 // The dumps behind the passes have the drum at the ends of its way; the works of exciter, traction and torque
 // are what the bed stores and loses.
 TEST_F(BedDriven, ComesToTheEndsOfItsWayAndItsWorkBalances) {
-  const std::array<std::pair<const char *, const char *>, 4> scenes = {
-      {{"driven", "rigid"}, {"towed", "rigid"}, {"none", "rigid"}, {"driven", "absorb"}}};
+  const std::array<std::pair<const char *, const char *>, 3> scenes = {
+      {{"towed", "rigid"}, {"none", "rigid"}, {"driven", "absorb"}}};
   for (const auto &[rotation, boundary] : scenes) {
     const Scratch folder;
     std::ofstream(folder / "passes.csv") << "of an earlier run\n";
@@ -285,9 +285,11 @@ TEST_F(BedDriven, GoesTheSameWayInBothEnginesOver500Steps) {
 TEST_F(BedDrivenByAClump, RollsToTheEndsOfItsWayAndItsWorkBalances) {
   for (const char *rotation : {"driven", "towed", "none"}) {
     const Scratch folder;
-    well(drive(
-        folder,
-        {{"drum_rotation", rotation}, {"passes", "1"}, {"margin", "0.01"}, {"steps_per_cycle", "2000"}}));
+    const bool driven = std::string(rotation) == "driven";
+    const Variables way = {
+        {"drum_rotation", rotation}, {"passes", "1"}, {"margin", "0.01"}, {"steps_per_cycle", "2000"}};
+    // The others need no cells of a way: at twice the speed they take half as many steps.
+    well(drive(folder, driven ? way : with(way, {{"speed", "4"}, {"ramp", "0.025"}})));
     const std::map<long, post::StepDump> dumps = post::dumped_steps(folder / "dump");
     ASSERT_EQ(dumps.size(), 2U);
     const fs::path first = dumps.begin()->second.balls, last = dumps.rbegin()->second.balls;
@@ -310,12 +312,13 @@ TEST_F(BedDrivenByAClump, RollsToTheEndsOfItsWayAndItsWorkBalances) {
       EXPECT_NEAR(now.position[2], ball.position[2], 1e-7);
     }
     EXPECT_LT(largest, 1e-6) << rotation;
-    if (std::string(rotation) == "driven") {
+    if (driven) {
       EXPECT_NEAR(turned, 2.0, 1e-5);
     } else {
       EXPECT_EQ(std::fabs(turned) > 0.1, std::string(rotation) == "towed") << turned;
     }
     EXPECT_LT(std::fabs(unbalanced(post::read_table(folder / "bed.csv"))), 1e-3) << rotation;
+    if (!driven) continue;
     well(run_program({DRUMLIN_TOOLS, "passes", folder.path().string(), "--cell", "0.17"}, {}, folder.path()));
     EXPECT_EQ(post::read_table(folder / "passes.csv").rows(), 2U);
   }

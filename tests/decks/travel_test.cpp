@@ -342,7 +342,7 @@ TEST_P(TravellingDrum, BalancesItsEnergyOverARowOfBalls) {
         Kind{"driven radius 0.2", "24", "0.1"}, Kind{"towed", "24", "0.1"},
         Kind{"towed inertia 0.35", "24", "0.1"}, Kind{"driven radius 0.2", "24", "10"}}) {
     std::vector<double> steps, errors;
-    for (const double dt : second() ? std::vector{1e-4, 2e-4, 0.5e-4} : std::vector{1e-4}) {
+    for (const double dt : second() ? std::vector{1e-4, 2e-4} : std::vector{1e-4}) {
       const Scratch folder;
       well(run("travel", folder,
                {{"words", std::string("from 0 to 0.5 speed 1 ramp 0.1 passes 2 rotation ") + rotation},
@@ -366,7 +366,7 @@ TEST_P(TravellingDrum, BalancesItsEnergyOverARowOfBalls) {
     EXPECT_LT(errors[0], 1e-3) << rotation << ' ' << balls;
     if (second()) {
       EXPECT_LT(fitted_order(steps, errors), -1.7)
-          << rotation << ' ' << balls << ' ' << errors[0] << ' ' << errors[1] << ' ' << errors[2];
+          << rotation << ' ' << balls << ' ' << errors[0] << ' ' << errors[1];
     }
   }
 }
