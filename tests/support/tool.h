@@ -5,13 +5,42 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace drumlin::test {
 
+/// For its lifetime a program takes the place of gnuplot whose pictures are whole and empty: drawing takes
+/// most of the time of a command that writes a page.
+class SketchedPictures {
+public:
+  SketchedPictures() {
+    std::ofstream(folder_ / "gnuplot") << R"sh(#!/bin/sh
+name=${2%.gp}
+printf '<?xml version="1.0"?><svg></svg>' >"$name.svg"
+printf '\211PNG\r\n\032\n\000\000\000\000IEND\256B`\202' >"$name.png"
+if grep -q 'terminal gif' "$2"; then printf 'GIF8;' >"$name.gif"; fi
+)sh";
+    std::filesystem::permissions(folder_ / "gnuplot", std::filesystem::perms::owner_all);
+    const char *usual = std::getenv("PATH");
+    usual_ = usual == nullptr ? "/usr/bin:/bin" : usual;
+    ::setenv("PATH", (folder_.path().string() + ":" + usual_).c_str(), 1);
+  }
+  ~SketchedPictures() { ::setenv("PATH", usual_.c_str(), 1); }
+  SketchedPictures(const SketchedPictures &) = delete;
+  SketchedPictures &operator=(const SketchedPictures &) = delete;
+
+private:
+  const Scratch folder_;
+  std::string usual_;
+};
+
+/// Cases that judge pictures, one or more for each page that a command has, call draw() first.
 class Tool : public ::testing::Test {
 protected:
   /// Calls drumlin with words of which the first is the command.
@@ -25,6 +54,10 @@ protected:
     return drumlin(std::move(words));
   }
 
+  /// From here on gnuplot draws.
+  void draw() { sketched_.reset(); }
+
+  std::optional<SketchedPictures> sketched_{std::in_place};
   const Scratch scratch_;
   const std::filesystem::path folder_ = scratch_.path();
 };

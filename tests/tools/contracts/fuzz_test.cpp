@@ -12,15 +12,16 @@
 #include "tests/support/engine_runs.h"
 #include "tests/support/lines.h"
 #include "tests/support/run_folders.h"
+#include "tests/support/tool.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -49,33 +50,17 @@ void PrintTo(const Subject &subject, std::ostream *out) { *out << subject.name; 
 
 constexpr double most_seconds = 200.0;
 
-/// A gnuplot whose pictures are whole and empty: most mutants need not wait for drawn ones.
-void write_quick_gnuplot(const fs::path &folder) {
-  fs::create_directories(folder);
-  std::ofstream(folder / "gnuplot") << R"sh(#!/bin/sh
-name=${2%.gp}
-printf '<?xml version="1.0"?><svg></svg>' >"$name.svg"
-printf '\211PNG\r\n\032\n\000\000\000\000IEND\256B`\202' >"$name.png"
-)sh";
-  fs::permissions(folder / "gnuplot", fs::perms::owner_all);
-}
-
-Outcome run_tools(const fs::path &folder, std::vector<std::string> words, const std::string &path = "") {
+Outcome run_tools(const fs::path &folder, std::vector<std::string> words) {
   words.insert(words.begin(), DRUMLIN_TOOLS);
-  const char *usual = std::getenv("PATH");
-  return post::run_program(
-      words,
-      {"PATH=" + (path.empty() ? "" : path + ":") + (usual == nullptr ? "/usr/bin:/bin" : usual),
-       "ASAN_OPTIONS=exitcode=99", "UBSAN_OPTIONS=exitcode=99"},
-      folder, most_seconds);
+  return post::run_program(words, {"ASAN_OPTIONS=exitcode=99", "UBSAN_OPTIONS=exitcode=99"}, folder,
+                           most_seconds);
 }
 
 Outcome run_report(const fs::path &folder, int mutant) {
-  constexpr int really_drawn = 12; // one in so many
-  if (mutant % really_drawn == 0) return run_tools(folder, {"report", "run", "--out", "out"});
-  const fs::path quick = folder.parent_path() / "quick";
-  write_quick_gnuplot(quick);
-  return run_tools(folder, {"report", "run", "--out", "out"}, quick.string());
+  constexpr int really_drawn = 12; // one in so many; the others need not wait for gnuplot
+  std::optional<SketchedPictures> sketched;
+  if (mutant % really_drawn != 0) sketched.emplace();
+  return run_tools(folder, {"report", "run", "--out", "out"});
 }
 
 Outcome run_vtk(const fs::path &folder, int /*mutant*/) {
@@ -95,9 +80,8 @@ Outcome run_exact(const fs::path &folder, int /*mutant*/) {
 }
 
 Outcome run_passes(const fs::path &folder, int /*mutant*/) {
-  const fs::path quick = folder.parent_path() / "quick";
-  write_quick_gnuplot(quick);
-  return run_tools(folder, {"passes", "run", "--cell", "0.4", "--out", "out"}, quick.string());
+  const SketchedPictures sketched;
+  return run_tools(folder, {"passes", "run", "--cell", "0.4", "--out", "out"});
 }
 
 void write_chain(const fs::path &folder) {

@@ -204,7 +204,7 @@ TEST_F(MeterCommand, TakesWindowsByDistanceAlongTheWay) {
     const char *from, *to, *pass, *k;
   };
   for (const Part &part : {Part{"5", "8", "1", "2e7"}, {"13", "16", "1", "4e7"}, {"0", "3", "2", "2e7"}}) {
-    exact({"--k", part.k, "--D", "0.25", "--cycles", "200", "--out", "stands"});
+    exact({"--k", part.k, "--D", "0.25", "--cycles", "80", "--out", "stands"});
     well(meter({"stands"}));
     const Table standing = read_table(folder_ / "results/meter/meter.csv");
     EXPECT_EQ(standing.header().back(), "stiffness"); // no places
@@ -294,6 +294,7 @@ TEST_F(MeterCommand, KeepsTheRecord) {
 }
 
 TEST_F(MeterCommand, RecordOfARun) {
+  draw();
   write_chain_run(folder_ / "run", "II", Transition::B, 20);
   const Outcome outcome = meter({"run", "--drum-radius", "0.759", "--drum-width", "2.13"});
   ASSERT_EQ(outcome.status, 0) << outcome.output;
@@ -402,6 +403,7 @@ TEST_F(MeterCommand, GivesBackWhatTheLoggersFilterHasTaken) {
 }
 
 TEST_F(MeterCommand, ShowsWhatItUnderstands) {
+  draw();
   write_measured("gap.csv", 1000, 500);
   std::vector<std::string> words = {"gap.csv", "--show"};
   words.insert(words.end(), as_measured.begin(), as_measured.end());

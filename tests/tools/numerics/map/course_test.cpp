@@ -162,6 +162,7 @@ protected:
 };
 
 TEST_F(CourseCommand, WritesValuesMarksAndAPage) {
+  draw();
   const Outcome outcome = well(map(few()));
   const Table table = read_table(folder_ / "m/meter.csv");
   ASSERT_EQ(table.rows(), 11U);
@@ -198,6 +199,7 @@ TEST_F(CourseCommand, WritesValuesMarksAndAPage) {
 
 // Any number may be the axis; without a drum's size there is no E_vib.
 TEST_F(CourseCommand, AlongOtherNumbers) {
+  draw();
   well(map({"--x", "frequency:18:30:4", "--me-re", "4", "--identify", "0", "--out", "f"}));
   const Table table = read_table(folder_ / "f/meter.csv");
   EXPECT_EQ(table.numbers("frequency [Hz]").back(), 30.0);

@@ -238,6 +238,7 @@ protected:
 };
 
 TEST_F(EndsMapCommand, WritesModesOverStiffnessAndRatio) {
+  draw();
   const Outcome outcome = well(map({"--contacts", "2", "--roller", axas_, "--D", "0.2", "--x",
                                     "k:10e6:60e6:4", "--y", "ratio:1:3:3:log", "--out", "m"}));
   EXPECT_TRUE(printed(outcome, "m: 12 points on 2 contacts: continuous contact at "));

@@ -203,6 +203,7 @@ protected:
 };
 
 TEST_F(MapCommand, WritesPointsBoundariesAndPictures) {
+  draw();
   well(map(few()));
   const Table table = read_table(folder_ / "m/regimes.csv");
   EXPECT_EQ(table.rows(), 35U);
@@ -292,6 +293,7 @@ TEST(MapAxis, MayHaveAUnit) {
 }
 
 TEST_F(MapCommand, ASweepIsWritten) {
+  draw();
   well(map({"--sweep", "k:8e6:25e6:9", "--D", "0.1", "--out", "s"}));
   EXPECT_EQ(read_table(folder_ / "s/sweep.csv").rows(), 2U * 9U * 32U);
   EXPECT_TRUE(fs::is_regular_file(folder_ / "s/sweep.png"));

@@ -352,6 +352,7 @@ TEST_F(Passes, SaysWhenTheGainIsSmall) {
 }
 
 TEST_F(Passes, AnswersInOneSentenceOnAPage) {
+  draw();
   write_run("run");
   const Outcome outcome = passes({"run", "--out", "made/out"});
   ASSERT_TRUE(outcome.ok()) << outcome.output;
@@ -454,6 +455,7 @@ TEST_F(Passes, JudgesTheCellsByRulesOfAcceptance) {
 
 // In place of the run, which the report of chains and beds cannot judge.
 TEST_F(Passes, HaveTheirPageInAReport) {
+  draw();
   write_run("run");
   const auto report = [this] {
     return run_program({DRUMLIN_TOOLS, "report", "run", "--out", "report"}, {}, folder_);
@@ -494,6 +496,7 @@ TEST_F(Passes, HaveNoStiffnessOfASoilThatDrivesTheDrum) {
 
 // A GIF has a graphic control extension for each of its pictures.
 TEST_F(Passes, ShowsAPassInMotion) {
+  draw();
   write_run("run");
   for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8})
     write_dump("run", {0.05, 0, 3000.0}, step_of(share * pass_time));
