@@ -1,11 +1,15 @@
-// Calibration on small beds in the engine: it continues where it was interrupted, and its case file makes the
-// bed that it measured.
+#include "bed/packing.h"
 #include "calibration/evaluations.h"
 #include "calibration/soil_tests.h"
 #include "engine/deck_run.h"
 #include "experiment/quantity.h"
 #include "experiment/scene.h"
+#include "map/course.h"
+#include "map/meter_study.h"
 #include "support/csv.h"
+#include "support/files.h"
+#include "support/resumed.h"
+
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
@@ -15,12 +19,130 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <sys/resource.h>
+
 namespace drumlin::test {
 namespace {
+
+// `drumlin study meter --quick`: the rows against closed forms, and an
+// interrupted call that continues to the same result.
+namespace meter {
+
+namespace fs = std::filesystem;
+using namespace post;
+
+const MapAxis axis = {"k", 1e6, 200e6, 8, true};
+
+void expect_right(const CoursePoint &point) {
+  SCOPED_TRACE(point.value);
+  EXPECT_EQ(point.roller, "Axas2020-29Hz");
+  const double k = point.value;
+  const bool held = point.motion.regime == Regime::continuous_contact;
+  ChainParameters p = soil_machine(point.roller).chain;
+  p.k = k;
+  EXPECT_EQ(held, contact_margin(p) > 0.0);
+  if (held) {
+    EXPECT_NEAR(point.motion.meter.k_1, k, 1e-9 * k);
+    EXPECT_NEAR(point.motion.meter.c_1, p.damping(), 1e-9 * p.damping());
+  }
+  EXPECT_NEAR(point.exact.k, k, 1e-6 * k);
+  EXPECT_NEAR(point.exact.D, p.D, 1e-6);
+  EXPECT_NEAR(point.measured.k, k, (held ? 0.3 : 0.02) * k);
+  EXPECT_GT(point.E_vib, 0.0);
+}
+
+TEST(MeterStudy, RowsAgreeWithOrbitsAndAnInterruptedCallContinues) {
+  const ScratchStudy study("meter");
+  well(study.run());
+  const fs::path rows = study.out() / "records.csv";
+  const CsvSchema<CoursePoint> columns = course_columns(axis, true);
+  const std::vector<CoursePoint> points = read_points(rows, columns);
+  ASSERT_EQ(points.size(), 8U);
+  for (const CoursePoint &point : points)
+    expect_right(point);
+  EXPECT_EQ(points.front().motion.regime, Regime::continuous_contact);
+  EXPECT_EQ(points[4].motion.regime, Regime::partial_uplift);
+  EXPECT_EQ(points.back().motion.regime, Regime::period_2);
+  const std::string courses = read_text(study.out() / "data/courses.csv");
+
+  interrupt(rows);
+  fs::remove(study.out() / "index.html");
+  well(study.run());
+  EXPECT_EQ(read_points(rows, columns).size(), 8U);
+  EXPECT_EQ(read_text(study.out() / "data/courses.csv"), courses);
+  expect_sound_page(study.out(), 11);
+}
+
+} // namespace meter
+
+// Which failures of a run are its scene's, and which may pass.
+namespace decks {
+
+class FaultsOfRuns : public ::testing::Test {
+protected:
+  FaultsOfRuns() {
+    post::PackingOptions packing;
+    packing.balls = 60;
+    packing.width = 0.4;
+    post::write_files(
+        {{scratch_ / "balls.data", post::bed_data(packing, 2650.0, post::pack_balls(packing))}});
+  }
+  /// "scene: WHY" or "may pass: WHY" of in.settle with some other variables.
+  std::string fault(Variables variables, double limit = 600.0) const {
+    variables.insert(variables.end(), {{"case", "loose"},
+                                       {"balls", (scratch_ / "balls.data").string()},
+                                       {"bed", (scratch_ / "soil").string()}});
+    try {
+      const post::DeckRun run("bed/in.settle", variables, 1, limit);
+      run.must_succeed();
+    } catch (const post::SceneFault &fault) {
+      return std::string("scene: ") + fault.what();
+    } catch (const std::runtime_error &fault) {
+      return std::string("may pass: ") + fault.what();
+    }
+    return "none";
+  }
+
+  Scratch scratch_;
+};
+
+TEST_F(FaultsOfRuns, AreTheScenesWhereTheEngineSaysSo) {
+  EXPECT_EQ(fault({{"settle_limit", "1000"}})
+                .rfind("scene: bed/in.settle: ERROR: drumlin/settle: unbalanced ratio is ", 0),
+            0U)
+      << fault({{"settle_limit", "1000"}});
+}
+
+TEST_F(FaultsOfRuns, MayPassWhereTheMachineIsAtFault) {
+  const std::string slow = fault({}, 1e-3), missing = fault({{"balls", "none"}});
+  EXPECT_EQ(slow, "may pass: bed/in.settle: was stopped at its time limit");
+  EXPECT_EQ(missing.rfind("may pass: bed/in.settle: ERROR: ", 0), 0U) << missing;
+  // A limit on the size of files stands for a full disk.
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = ::signal(SIGXFSZ, SIG_IGN);
+  for (const rlim_t size : {100U, 2000U, 9000U}) {
+    rlimit limit = before;
+    limit.rlim_cur = size;
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+    const std::string full = fault({});
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    EXPECT_EQ(full.rfind("may pass: ", 0), 0U) << full;
+  }
+  ::signal(SIGXFSZ, handler);
+}
+
+} // namespace decks
+
+// Calibration on small beds in the engine: it continues where it was interrupted, and its case file makes the
+// bed that it measured.
+namespace soil {
 
 namespace fs = std::filesystem;
 
@@ -115,6 +237,8 @@ TEST(CalibratedBed, IsMadeByTheCaseFile) {
   EXPECT_EQ(law[0], measured[0]);
   EXPECT_EQ(law[1], measured[1]);
 }
+
+} // namespace soil
 
 } // namespace
 } // namespace drumlin::test
