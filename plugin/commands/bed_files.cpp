@@ -97,9 +97,8 @@ RestartNotes notes_of_data_file(const std::string &file) {
   std::getline(in, line); // the title
   while (std::getline(in, line) && line.rfind("Atoms", 0) != 0) {
     if (line.rfind(mark, 0) != 0) continue;
-    std::istringstream words(line.substr(mark.size()));
-    std::string name, value;
-    if (words >> name >> value) notes.emplace_back(name, value);
+    const std::vector<std::string> words = words_of(line.substr(mark.size()));
+    if (words.size() > 1) notes.emplace_back(words[0], words[1]);
   }
   return notes;
 }
@@ -301,8 +300,7 @@ private:
   /// Reads the next line that is neither empty nor a comment into words_; false at the end of the file.
   bool next_line() {
     while (std::getline(in_, line_)) {
-      std::istringstream text(line_.substr(0, line_.find('#')));
-      words_.assign(std::istream_iterator<std::string>(text), {});
+      words_ = words_of(line_.substr(0, line_.find('#')));
       if (!words_.empty()) return true;
     }
     return false;

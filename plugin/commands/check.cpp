@@ -72,11 +72,7 @@ public:
     for (const auto &rule : rules)
       names.push_back(rule.first);
     const std::string what = "rule for variable " + name_;
-    const std::string word = in_.word("the " + what, join_choices(names));
-    const auto rule =
-        std::find_if(rules.begin(), rules.end(), [&word](const auto &one) { return one.first == word; });
-    if (rule == rules.end()) in_.fail(what, word, join_choices(names));
-    (this->*rule->second)();
+    (this->*rules[in_.choice(what, names)].second)();
     if (!in_.empty()) in_.fail("argument behind the " + what, in_.peek(), "one value and one rule");
   }
 
@@ -268,10 +264,15 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
   Arguments in(lmp->error, "drumlin/check", narg, arg);
   const std::string name = in.word("the variable's name");
   const std::string value = in.word("the value of variable " + name);
-  try {
-    Check(lmp, in, name, value).run();
-  } catch (const Broken &broken) {
-    DeckVariables::refuse(lmp, "drumlin/check: variable " + name + " is '" + value + "'" + broken.text);
+  const std::vector<std::string> words = // * stands for each word of the variable
+      value == "*" ? words_of(DeckVariables(lmp).value(name).value_or("")) : std::vector{value};
+  for (const std::string &word : words) {
+    Arguments rule = in;
+    try {
+      Check(lmp, rule, name, word).run();
+    } catch (const Broken &broken) {
+      DeckVariables::refuse(lmp, "drumlin/check: variable " + name + " is '" + word + "'" + broken.text);
+    }
   }
 }
 

@@ -17,12 +17,12 @@ constexpr const char *of_notes = "drumlin_notes";
 constexpr const char *of_fault = "drumlin_fault";
 constexpr const char *of_open = "drumlin_open";
 
+} // namespace
+
 std::vector<std::string> words_of(const std::string &text) {
   std::istringstream in(text);
   return {std::istream_iterator<std::string>(in), {}};
 }
-
-} // namespace
 
 bool is_in(const std::vector<std::string> &names, const std::string &name) {
   return std::find(names.begin(), names.end(), name) != names.end();

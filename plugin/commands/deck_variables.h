@@ -78,6 +78,8 @@ private:
   LAMMPS_NS::Variable &variables_;
 };
 
+/// The words of a text, which are separated by blanks.
+std::vector<std::string> words_of(const std::string &text);
 /// Whether a name is in a list.
 bool is_in(const std::vector<std::string> &names, const std::string &name);
 

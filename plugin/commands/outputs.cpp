@@ -122,7 +122,9 @@ void record_command(LAMMPS *lmp, int narg, char **arg) {
   std::vector<std::pair<std::string, std::string>> rows;
   while (!in.empty()) {
     const std::string key = in.word("name");
-    rows.emplace_back(key, in.word("the value of " + key));
+    std::string value = in.word("the value of " + key);
+    if (value == "*") value = joined(words_of(DeckVariables(lmp).value(key).value_or("")), ",");
+    rows.emplace_back(key, value);
   }
   // Declared variables, unless the deck has given their rows.
   DeckVariables::stop_on_fault(lmp);

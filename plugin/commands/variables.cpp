@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
-#include <iterator>
 #include <numeric>
-#include <sstream>
 #include <stdexcept>
 
 namespace drumlin {
@@ -74,8 +72,7 @@ std::string unknown_in(const DeckVariables &variables, const std::string &text) 
 /// \param standard the default value \param command for the error of a rule that does not exist
 void declare(LAMMPS *lmp, const VariableLine &line, const std::string &standard, const std::string &command) {
   DeckVariables variables(lmp);
-  std::istringstream words(evaluated(lmp, line.rule));
-  std::vector<std::string> rule(std::istream_iterator<std::string>(words), {});
+  std::vector<std::string> rule = words_of(evaluated(lmp, line.rule));
   rule.resize(std::max<std::size_t>(rule.size(), 1)); // an empty rule is refused below
   const std::string &name = line.name;
   DeclaredVariable variable{name, line.group, rule[0] != "noted", rule[0] == "words"};

@@ -108,7 +108,7 @@ protected:
 // itself stands in the file instead of the declared one.
 TEST_P(DeckVariablesTest, RecordTheirValues) {
   well(run("variable D index 0.4\nvariable mu index 0.6\n" + declarations +
-               "drumlin/record parameters.csv deck own loads 25,50 kt $(v_k/2)\n",
+               "drumlin/record parameters.csv deck own loads * kt $(v_k/2)\n",
            {{"k", "8"}, {"mu", "0.7"}}));
   EXPECT_EQ(row("k"), "8");
   EXPECT_EQ(row("D"), "0.4");
