@@ -108,9 +108,9 @@ TEST(RefusedDecks, KeepTheirOwnVariables) {
       {"soil/in.biaxial", {"test", "dimensions", "engine"}},
       {"soil/in.density", {"share", "packings", "in_lammps", "of_preparation"}},
       {"soil/in.oedometer", {"test", "mass", "pitch", "h", "flat", "softer", "loose"}},
-      {"soil/in.repose", {"test", "files", "moved", "along_x", "wall_friction", "rough"}},
+      {"soil/in.repose", {"test", "files", "moved", "pull_x", "wall_friction", "rough"}},
       {"soil/in.shear", {"test", "dimensions"}},
-      {"soil/in.silo", {"floor", "test_drag", "until_free", "along_y", "flat_radius"}},
+      {"soil/in.silo", {"floor", "test_drag", "ended", "pull_y", "flat_radius"}},
       {"soil/in.triaxial", {"test", "balls"}},
       {"soil/in.wall", {"floor", "rough"}}};
   for (const auto &[deck, names] : table)
