@@ -390,10 +390,23 @@ std::string answer_of(const Results &results) {
   return text + ".";
 }
 
+/// That moist soil loosens where the same soil dry does not; empty for dry soil (inputs/study/loosening).
+std::string moist_words(const PassesResult &one) {
+  for (const char *name : {"tensile_strength", "suction"}) {
+    const auto noted = one.parameters.find(name);
+    if (noted != one.parameters.end() && noted->second != "0" && noted->second != "unknown")
+      return fmt::format(
+          " The soil is moist ({} {}): in the model suction holds what has loosened; a lift of "
+          "the same soil without it gains more.",
+          name, noted->second);
+  }
+  return {};
+}
+
 /// What the densities are worth, told before them.
 std::string worth_of(const Results &results) {
   std::vector<std::string> loosened;
-  std::string too_dense;
+  std::string conditions = moist_words(results.front());
   // The densest that vertical shaking leaves of soil as case gravel, inside (inputs/study/cyclic).
   const double shaken = results.front().flat ? 0.825 : 0.610;
   const std::size_t layers = results.front().layers();
@@ -405,7 +418,7 @@ std::string worth_of(const Results &results) {
                             return pass.soil.inner_solid_fraction(layer);
                           }).mean;
     if (before > shaken)
-      too_dense +=
+      conditions +=
           fmt::format(" Inside, {} began at a solid fraction of {:.3f}; shaking leaves at most {:.3f} "
                       "of such soil, so that it can only loosen: disregard how its density changes.",
                       name, before, shaken);
@@ -414,11 +427,11 @@ std::string worth_of(const Results &results) {
     return "What the densities are worth: they may be compared with those of other runs, not with a site. "
            "Dense "
            "soil of this model loosens under a roller, which that of a site does not." +
-           too_dense;
+           conditions;
   return fmt::format("This result contradicts experience: {} loosened under the roller. Disregard solid "
                      "fractions, degrees of compaction and settlement; forces and meter values are those on "
                      "soil of such a density.{}",
-                     fmt::join(loosened, " and "), too_dense);
+                     fmt::join(loosened, " and "), conditions);
 }
 
 void write_passes_page(const std::filesystem::path &folder, const Results &results, const JudgedMap &judged) {

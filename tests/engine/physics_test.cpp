@@ -319,8 +319,8 @@ TEST(Density, OfLayersOfALatticeIsThatOfItsSections) {
           // Two diameters are more than a quarter of the thickness.
           const double beside = 0.25 * (top - below);
           const double phi = solids_between(below + beside, top - beside, flat);
-          const std::string line =
-              fmt::format("drumlin/density: layer {}, {:.3f} to {:.3f} m: solid fraction ", layer, below, top);
+          const std::string line = fmt::format(
+              "drumlin/density: layer {}, {:.3f} to {:.3f} m: solid fraction ", layer, below, top);
           EXPECT_NEAR(number_behind(outcome.output, line), phi, 6e-5);
           below = top;
         }

@@ -394,6 +394,26 @@ TEST_F(Passes, SaysWhetherTheSurfaceRisesAndSoilLoosens) {
                         "Disregard solid fractions, degrees of compaction and settlement"}));
 }
 
+// The page says first what makes a bed loosen whatever the roller does: suction, and soil denser than shaking
+// leaves it.
+TEST_F(Passes, SayWhichBedsOnlyLoosen) {
+  DriveRun run;
+  const auto page = [&] {
+    passes({"run"});
+    return read_text(folder_ / "run/passes/index.html");
+  };
+  const fs::path parameters = write_run("run", run) / "parameters.csv";
+  const std::string loose_and_dry = page();
+  EXPECT_EQ(loose_and_dry.find("The soil is moist"), std::string::npos);
+  EXPECT_EQ(loose_and_dry.find("the lift began at"), std::string::npos);
+  write_files({{parameters, read_text(parameters) + "tensile_strength,2e4\n"}});
+  EXPECT_TRUE(contains(page(), {"The soil is moist (tensile_strength 2e4): in the model suction holds"}));
+  run.bed = [](int) { return Bed{0.042, 0, 1000.0}; };
+  write_run("run", run);
+  EXPECT_TRUE(contains(page(), {"Inside, the lift began at a solid fraction of 0.93",
+                                "shaking leaves at most 0.825 of such soil"}));
+}
+
 TEST_F(Passes, OfARollerThatDoesNotVibrateHaveNoMeterValues) {
   const fs::path parameters = write_run("run") / "parameters.csv";
   write_files({{parameters, std::regex_replace(read_text(parameters), std::regex("Fw,[0-9]+"), "Fw,0")}});
