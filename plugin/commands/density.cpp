@@ -16,7 +16,7 @@ namespace {
 using LAMMPS_NS::LAMMPS;
 
 constexpr double pi = 3.14159265358979323846;
-/// So much a layer may differ in relative density from what was asked for without a warning, about twice the
+/// So much a layer may differ in relative density from what was asked for without a warning, three times the
 /// scatter of single layers (inputs/study/density).
 constexpr double expected_scatter = 0.2;
 
