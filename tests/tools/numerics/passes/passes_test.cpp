@@ -408,9 +408,9 @@ TEST_F(Passes, SayWhichBedsOnlyLoosen) {
   EXPECT_EQ(loose_and_dry.find("the lift began at"), std::string::npos);
   write_files({{parameters, read_text(parameters) + "tensile_strength,2e4\n"}});
   EXPECT_TRUE(contains(page(), {"The soil is moist (tensile_strength 2e4): in the model suction holds"}));
-  run.bed = [](int) { return Bed{0.042, 0, 1000.0}; };
+  run.bed = [](int) { return Bed{0.036, 0, 1000.0}; };
   write_run("run", run);
-  EXPECT_TRUE(contains(page(), {"Inside, the lift began at a solid fraction of 0.93",
+  EXPECT_TRUE(contains(page(), {"Inside, the lift began at a solid fraction of 0.886",
                                 "shaking leaves at most 0.825 of such soil"}));
 }
 
