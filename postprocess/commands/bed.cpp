@@ -300,7 +300,10 @@ BedRequest::Layer only_layer(const BedRequest &request) {
   layer.bed.thickness = request.packing.balls / static_cast<double>(balls_of(layer.bed));
   if (const std::string fault = layer.bed.packing.invalid(); !fault.empty())
     throw std::invalid_argument(fault);
-  if (const std::string fault = layer.bed.invalid(); !fault.empty()) throw std::invalid_argument(fault);
+  if (!layer.bed.invalid().empty())
+    throw std::invalid_argument(refusal("balls", request.packing.balls,
+                                        "with --relative-density so many that the bed is at least as thick "
+                                        "as its largest ball"));
   return layer;
 }
 
