@@ -6,6 +6,7 @@
 #include "support/whole_file.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -72,7 +73,7 @@ public:
     for (const auto &rule : rules)
       names.push_back(rule.first);
     const std::string what = "rule for variable " + name_;
-    (this->*rules[in_.choice(what, names)].second)();
+    (this->*rules[static_cast<std::size_t>(in_.choice(what, names))].second)();
     if (!in_.empty()) in_.fail("argument behind the " + what, in_.peek(), "one value and one rule");
   }
 
@@ -271,7 +272,8 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
     try {
       Check(lmp, rule, name, word).run();
     } catch (const Broken &broken) {
-      DeckVariables::refuse(lmp, "drumlin/check: variable " + name + " is '" + word + "'" + broken.text);
+      DeckVariables::refuse(lmp,
+                            fmt::format("drumlin/check: variable {} is '{}'{}", name, word, broken.text));
     }
   }
 }

@@ -178,7 +178,7 @@ void density_command(LAMMPS *lmp, int narg, char **arg) {
                           layer + 1, found > asked[n] ? "denser" : "looser", std::fabs(found - asked[n]));
       }
     }
-    engine::log_message(lmp, "drumlin/density: " + line + "\n" + warning);
+    engine::log_message(lmp, fmt::format("drumlin/density: {}\n{}", line, warning));
     tops += fmt::format("{}{:.17g}", layer == 0 ? "" : ",", top);
     below = top;
   }

@@ -378,6 +378,48 @@ TEST_P(LayeredBed, IsPouredForItsRelativeDensity) {
   EXPECT_LT(looser, 1.13);
 }
 
+// The tool makes the packings of a sieve curve itself, once, and a bed made with them has the density asked
+// for.
+TEST(BedOfASieveCurve, GetsTheDensityAskedFor_ByNight) {
+  const Scratch folder;
+  const std::vector<std::string> words = {DRUMLIN_TOOLS,
+                                          "bed",
+                                          "--sieve",
+                                          "20-60",
+                                          "--cut",
+                                          "20",
+                                          "--out",
+                                          "balls.data",
+                                          "--balls",
+                                          "800",
+                                          "--width",
+                                          "2",
+                                          "--relative-density",
+                                          "0.5"};
+  const Outcome made = run_program(words, {}, folder.path(), 1800.0);
+  well(made);
+  EXPECT_TRUE(made.says("LIGGGHTS pours 15 samples of ")) << made.output;
+  const post::Table packings = post::read_table(folder / "balls_packings.csv");
+  const std::vector<double> voids = packings.numbers("void_ratio"), share = packings.numbers("share");
+  ASSERT_EQ(packings.rows(), 5u);
+  for (std::size_t n = 1; n < voids.size(); ++n) {
+    EXPECT_GT(share[n], share[n - 1]);
+    EXPECT_GT(voids[n], voids[n - 1] + 0.005);
+  }
+  EXPECT_LT(voids.front(), 0.21); // random close packing of discs of several sizes: below 0.19 of equal ones
+  EXPECT_GT(voids.front(), 2.0 * std::sqrt(3.0) / pi - 1.0); // the densest lattice of equal discs: 0.103
+  const std::string first = read_text(folder / "balls.data");
+  const Outcome again = run_program(words, {}, folder.path());
+  well(again);
+  EXPECT_TRUE(again.says("Layer 1: packings of balls_packings.csv\n")) << again.output;
+  EXPECT_EQ(read_text(folder / "balls.data"), first);
+  const Outcome settled = run_deck(post::input_file("bed/in.settle"),
+                                   {{"balls", "balls.data"}, {"bed", "soil.restart"}}, folder.path());
+  well(settled);
+  EXPECT_TRUE(settled.says(" where 0.5 was asked for\n")) << settled.output;
+  EXPECT_FALSE(settled.says("WARNING: drumlin/density")) << settled.output;
+}
+
 /// Number of balls of an absorbing boundary times the dashpot of each, kg/s, as the log of the fix has it; 0
 /// if there is no such fix.
 double dashpots(const std::string &log, const std::string &id) {
