@@ -112,7 +112,7 @@ MeasuredPackings made_packings(const BedLayer &layer, const SoilFriction &soil, 
   make_parent_folder(table);
   write_files({{table, packings_csv(packings)}});
   print_progress(table.string());
-  return packings;
+  return read_packings(table); // with the digits of the file, as a later call has it
 }
 
 } // namespace drumlin::post

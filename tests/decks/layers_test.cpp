@@ -412,7 +412,7 @@ TEST(BedOfASieveCurve, GetsTheDensityAskedFor_ByNight) {
   const Outcome again = run_program(words, {}, folder.path());
   well(again);
   EXPECT_TRUE(again.says("Layer 1: packings of balls_packings.csv\n")) << again.output;
-  EXPECT_EQ(read_text(folder / "balls.data"), first);
+  EXPECT_TRUE(read_text(folder / "balls.data") == first);
   const Outcome settled = run_deck(post::input_file("bed/in.settle"),
                                    {{"balls", "balls.data"}, {"bed", "soil.restart"}}, folder.path());
   well(settled);
