@@ -269,6 +269,16 @@ TEST_F(ToolOptions, PackingsOfOtherBallsAreRefused) {
   refused(",2,0", {}, "it has those of discs with radii from r to 1 r");
   refused(",2,0.2", {"--radius-max", "0.032"}, allowed + "discs with radii from r to 2 r");
   refused(",2,0.2", {"--grading", "mass"}, allowed + "discs with radii from r to 1.5 r, grading mass");
+  // A curve of the same name and limits whose stones are finer.
+  post::write_files({{folder_ / "density.csv",
+                      "share,friction,rolling,void_ratio,dimension,spread,grading,d50_over_smallest\n"
+                      "1,0.8,0.4,0.3,2,0.5,20-60_from_20mm,1.6\n0,0,0,0.2,2,0.5,20-60_from_20mm,1.6\n"}});
+  const post::Outcome finer = run({"bed", "--layer", "0.3:20-60:20", "--packings", "density.csv",
+                                   "--relative-density", "1", "--out", "none.data"});
+  EXPECT_EQ(finer.status, 2);
+  EXPECT_TRUE(printed(finer,
+                      "grading 20-60_from_20mm with d50 1.732 times the smallest size; it has those of "
+                      "discs with radii from r to 3 r, grading 20-60_from_20mm with d50 1.6 times"));
 }
 
 TEST_F(ToolOptions, SpotsAreOfTheLowestLayer) {
