@@ -173,8 +173,8 @@ void density_command(LAMMPS *lmp, int narg, char **arg) {
         if (std::fabs(found - asked[n]) > expected_scatter)
           warning =
               fmt::format("WARNING: drumlin/density: layer {} is {} than asked for, by {:.2f} of "
-                          "relative density; make it again from another --seed, or with a table of "
-                          "packings of its own grading and contacts\n",
+                          "relative density: soil that is tipped moist (pour_tensile_strength) gets looser; "
+                          "else take another --seed, or packings of its own grading and contacts\n",
                           layer + 1, found > asked[n] ? "denser" : "looser", std::fabs(found - asked[n]));
       }
     }
