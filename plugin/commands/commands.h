@@ -50,8 +50,8 @@ void settle_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// group of balls.
 void surface_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/density NAME GROUP [layers N] [scale LOOSEST DENSEST ASKED]: tells how densely the layers of a bed
-/// lie, and sets a variable to the heights of their surfaces.
+/// drumlin/density NAME GROUP [layers N] [scale LOOSEST DENSEST ASKED]: prints the solid fraction and the
+/// relative density of each layer of a bed, and sets a variable to the heights of the surfaces of the layers.
 void density_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/layers k LIST D LIST friction LIST rolling off|epsd2 LIST [suction LIST]
@@ -95,7 +95,7 @@ void for_each_command(Add &&add) {
   add(CommandType<run_command>(), "drumlin/run", "runs with progress and a limit of wall time");
   add(CommandType<settle_command>(), "drumlin/settle", "runs to static equilibrium");
   add(CommandType<surface_command>(), "drumlin/surface", "measures the mean height of a surface");
-  add(CommandType<density_command>(), "drumlin/density", "tells how densely the layers of a bed lie");
+  add(CommandType<density_command>(), "drumlin/density", "measures the density of the layers of a bed");
   add(CommandType<suction_command>(), "drumlin/suction", "finds the suction for a tensile strength");
   add(CommandType<way_command>(), "drumlin/way", "takes the ends of a way and its soil from a file");
   add(CommandType<ends_command>(), "drumlin/ends", "takes contacts and bonds of a roller that tilts");

@@ -1,4 +1,4 @@
-// How densely the layers of a bed lie, beside what was asked for.
+// The density of the layers of a bed, beside the one asked for.
 #include "commands/commands.h"
 #include "commands/deck_variables.h"
 #include "commands/vertical_lines.h"
@@ -16,6 +16,9 @@ namespace {
 using LAMMPS_NS::LAMMPS;
 
 constexpr double pi = 3.14159265358979323846;
+constexpr const char *of_loosest = "keyword scale, loosest", *of_densest = "keyword scale, densest",
+                     *of_asked = "keyword scale, asked for";
+constexpr const char *one_each = "unknown, or a number for each layer, separated by commas";
 /// So much a layer may differ in relative density from what was asked for without a warning, three times the
 /// scatter of single layers (inputs/study/density).
 constexpr double expected_scatter = 0.2;
@@ -112,17 +115,17 @@ private:
   double count_ = 0.0, smallest_ = 0.0, mean_diameter_ = 0.0;
 };
 
-/// A list of one number a layer, or the word `unknown`: then it is empty.
-std::vector<double> known(Arguments &in, const std::string &what, const Range &range, int layers) {
-  const std::string allowed = fmt::format("unknown, or {} numbers, one for each layer", layers);
-  const std::string text = in.word(what, allowed);
+/// The numbers of a text, one for each layer, separated by commas; none if the text is `unknown`.
+std::vector<double> known(const Arguments &in, const std::string &what, const std::string &text,
+                          const Range &range, int layers) {
   if (text == "unknown") return {};
   std::vector<double> numbers;
   for (const std::string &entry : list_entries(text)) {
     numbers.push_back(parse_number(entry));
     if (!in_range(numbers.back(), range)) in.fail(what, text, allowed_text(range));
   }
-  if (numbers.size() != static_cast<std::size_t>(layers)) in.fail(what, text, allowed);
+  if (numbers.size() != static_cast<std::size_t>(layers))
+    in.fail(what, text, fmt::format("{}, and the bed has {} of them", one_each, layers));
   return numbers;
 }
 
@@ -134,24 +137,31 @@ void density_command(LAMMPS *lmp, int narg, char **arg) {
   const int group = in.group("group", lmp->group);
   constexpr int most_layers = 100;
   int layers = 1;
-  std::vector<double> loosest, densest, asked;
+  std::string loosest_text = "unknown", densest_text = "unknown", asked_text = "unknown";
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (keyword == "layers")
       layers = static_cast<int>(in.integer("keyword layers", 1, most_layers));
     else if (keyword == "scale") {
-      loosest = known(in, "keyword scale, loosest", Range::positive, layers);
-      densest = known(in, "keyword scale, densest", Range::positive, layers);
-      asked = known(in, "keyword scale, asked for", Range::any, layers);
+      loosest_text = in.word(of_loosest, one_each);
+      densest_text = in.word(of_densest, one_each);
+      asked_text = in.word(of_asked, one_each);
     } else
       in.fail("keyword", keyword, "layers or scale");
   }
+  const std::vector<double> loosest = known(in, of_loosest, loosest_text, Range::positive, layers),
+                            densest = known(in, of_densest, densest_text, Range::positive, layers),
+                            asked = known(in, of_asked, asked_text, Range::any, layers);
+  const bool has_scale = !loosest.empty() && !densest.empty();
+  for (std::size_t n = 0; has_scale && n < loosest.size(); ++n)
+    if (!(densest[n] < loosest[n]))
+      in.fail(of_densest, densest_text,
+              fmt::format("void ratios below those of the loosest, {}", loosest_text));
   if (lmp->domain->box_exist == 0)
     in.fail("simulation box is missing; allowed: the command after create_box or read_data");
   const Soil soil(lmp, engine::group_bit(group), layers);
   if (soil.count() == 0.0) in.fail("group", lmp->group->names[group], "one with balls");
   const VerticalLines lines(lmp, in, 0.25 * soil.smallest_radius());
-  const bool has_scale = !loosest.empty() && !densest.empty();
   std::string tops;
   double below = lmp->domain->boxlo[1];
   for (int layer = 0; layer < layers; ++layer) {

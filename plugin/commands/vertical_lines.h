@@ -28,7 +28,7 @@ struct Positions {
     return periodic ? n : std::max(n, 0);
   }
   bool holds(int n) const { return periodic || n < count; }
-  /// The position in the box of which n is a periodic image.
+  /// Number n brought back into the box, if it lies beyond a periodic side.
   int image(int n) const { return ((n % count) + count) % count; }
 };
 

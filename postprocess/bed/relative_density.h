@@ -77,8 +77,8 @@ const LayerPackings &layer_at(const std::vector<LayerPackings> &layers, double h
 
 /// The table of packings as text: what read_packings() reads.
 std::string packings_csv(const MeasuredPackings &packings);
-/// Reads such a table, or density.csv of in.density; std::runtime_error if it is not one, or does not say of
-/// which balls it is.
+/// Reads a table of packings: one of packings_csv(), or density.csv of inputs/soil/in.density. Throws
+/// std::runtime_error for any other file, and for a table that does not tell the sizes of its balls.
 MeasuredPackings read_packings(const std::filesystem::path &file);
 
 } // namespace drumlin::post

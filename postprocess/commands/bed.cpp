@@ -127,7 +127,7 @@ std::string of_layer(const char *option, const std::vector<std::string> &given, 
   return given.size() == 1 ? given.front() : given[layer];
 }
 
-/// Friction of the soil, from --friction and --rolling.
+/// Friction and rolling friction of the settled soil: --friction and --rolling, or those of case base.
 SoilFriction asked_friction(const Arguments &arguments) {
   SoilFriction soil;
   constexpr Range range = {0.0, 1e3};

@@ -182,9 +182,9 @@ TEST(TiltingBody, HasMassInertiaAndMotionOfItsBalls) {
   }
 }
 
-// Force and moment on the rigid drum are shared out to the balls on its axle. The shares have the same sum,
-// moment and power as the forces. They also keep the axle straight and its balls at constant distances:
-// accelerations change linearly along the axle. Only one set of shares does all this.
+// Force and moment on the rigid drum are distributed over the balls on its axle. The forces on the balls must
+// have the same sum, moment and power as those on the drum, and must keep the axle rigid: the acceleration
+// then changes linearly along it. Only one distribution does both.
 TEST(TiltingBody, SharesOutForceAndMoment) {
   for (unsigned seed = 1; seed < 50; ++seed) {
     Body body(seed);

@@ -268,7 +268,8 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double radius = 0.1; // m
 constexpr int rows_of_lower = 8, rows = 16;
 
-/// Share of solids between two heights: balls touch each other, the lowest the floor.
+/// Share of solids between two heights of the lattice. Its balls touch their neighbours, the lowest row the
+/// floor at height 0.
 double solids_between(double from, double to, bool flat) {
   constexpr int slices = 200000;
   const double slice = (to - from) / slices;
@@ -316,7 +317,7 @@ TEST(Density, OfLayersOfALatticeIsThatOfItsSections) {
         EXPECT_NEAR(second - first, 2.0 * radius * (rows - rows_of_lower), 1e-12);
         double below = 0.0;
         for (const auto &[layer, top] : {std::pair{1, first}, std::pair{2, second}}) {
-          // Two diameters are more than a quarter of the thickness.
+          // These layers are thin: the margin is a quarter of their thickness, not two diameters.
           const double beside = 0.25 * (top - below);
           const double phi = solids_between(below + beside, top - beside, flat);
           const std::string line = fmt::format(

@@ -15,8 +15,8 @@
 
 namespace drumlin::test {
 
-/// For its lifetime a program takes the place of gnuplot whose pictures are whole and empty: drawing takes
-/// most of the time of a command that writes a page.
+/// While an object of this class lives, commands find a program in place of gnuplot that writes valid but
+/// empty pictures. Drawing takes most of the time of a command that writes a page.
 class SketchedPictures {
 public:
   SketchedPictures() {

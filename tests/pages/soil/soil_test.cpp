@@ -299,7 +299,7 @@ protected:
   }
 };
 
-// Seeds have moduli of their own: the ratio is that of each.
+// G/G_max of a run takes the largest modulus of the sample with the same seed, not that of another one.
 TEST_F(CyclicShearReport, ShowsTheRunsOnAPageOfTheirOwn) {
   write_test("tests/a", 1e-5, 1, 100, 0.005, 0);
   write_test("tests/b", 1e-5, 2, 200, 0.005, 0);
@@ -346,7 +346,7 @@ const std::string header = "stress_kPa,settlement_mm,strain,void_ratio,porosity,
 
 class OedometerReport : public ElementReport {
 protected:
-  /// A run of three loads whose last energy error is given.
+  /// Writes an oedometer test of three loads. \param error of the energy balance at the last one
   void write_loads(const std::string &folder, const std::string &error = "2e-6") const {
     write_run(folder, "oedometer.csv",
               header +
@@ -469,7 +469,7 @@ const std::string seating = "0,10,0,3000,0,3,0,0,0,0,0\n";
 
 class PlateReport : public ElementReport {
 protected:
-  /// A test whose first loading ends at 100 kPa with a settlement, mm.
+  /// Writes a plate load test. \param settlement of the plate at the end of the first loading, 100 kPa, in mm
   void write_test(const std::string &folder, double settlement, const std::string &error = "2e-6") const {
     std::string text = header + seating;
     const auto row = [&](int phase, double stress, double s) {

@@ -144,7 +144,7 @@ TEST(FittedOrder, LeavesOutWhatIsCoarser) {
   std::vector<ErrorPoint> points = power_law(2.0, 8);
   for (std::size_t i = 0; i < 4; ++i)
     points[i].error = 0.5;
-  EXPECT_NEAR(finer_half(points), 1131.4, 0.1); // steps: the geometric mean of 100 and 12800
+  EXPECT_NEAR(finer_half(points), 1131.4, 0.1); // steps, between 100 and 12800: their geometric mean
   EXPECT_NEAR(fitted_order(points, finer_half(points))->order, 2.0, 1e-12);
   EXPECT_LT(fitted_order(points, 0.0)->order, 1.9);
 }
