@@ -17,6 +17,8 @@ double relative_density(double void_ratio, double loosest, double densest) {
   return (loosest - void_ratio) / (loosest - densest);
 }
 
+double densest_by_shaking(bool flat) { return flat ? 0.825 : 0.610; }
+
 MeasuredPackings::MeasuredPackings(std::vector<Row> rows) : rows_(std::move(rows)) {
   std::sort(rows_.begin(), rows_.end(), [](const Row &a, const Row &b) { return a.share < b.share; });
   if (rows_.size() < 2 || rows_.front().share != 0.0 || rows_.back().share != 1.0)

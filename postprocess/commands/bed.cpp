@@ -446,7 +446,8 @@ Panel grading_panel(const std::string &name, const GradingPair &pair) {
 /// Prints d10 to d60, C_u and C_c, and how far the bed differs from the curve at its sieves.
 void print_grading(const GradingPair &pair) {
   const SieveCurve &asked = pair.asked, &cut = pair.cut();
-  fmt::print("{}Grading {}: {:.1f} % of the mass are grains finer than {:g} mm, which are left out\n"
+  fmt::print("{}Grading {}: {:.1f} % of the mass are grains finer than {:g} mm, which are left out; in the "
+             "soil they fill pores, so that relative densities may be compared, solid fractions not\n"
              "{:<32}    d10    d30    d50    d60 mm    C_u    C_c\n",
              pair.title, pair.packing.sieve_name, asked.passing(cut.smallest()) * 100.0, cut.smallest() * 1e3,
              "");

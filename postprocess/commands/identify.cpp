@@ -129,17 +129,25 @@ Laws laws_of(const TwoSidedRecord &found) {
   return laws;
 }
 
+const MotionFit *motion_of(const IdentifiedRecord &found) { return found.motion ? &*found.motion : nullptr; }
+const MotionFit *motion_of(const TwoSidedRecord &found) { return &found.motion; }
+
 /// What the tolerances do to k, c and D of each contact: the record is read and identified again with each
 /// datum changed. Nothing without tolerances.
-/// \param identify a function that identifies a record
-template <class Identify>
-Laws machine_parts(const MachineTolerances &tolerances, const RecordArguments &arguments, const WayRange &way,
-                   const Record &record, const Laws &found, bool by_motion, const Identify &identify) {
+/// \param identify a function that identifies a record as this one was, without a search
+template <class Found, class Identify>
+Laws machine_parts(const RecordArguments &arguments, const WayRange &way, const Record &record,
+                   const Found &result, const Identify &identify) {
+  const MachineTolerances &tolerances = record.tolerances;
+  const Laws found = laws_of(result);
+  const bool by_motion = motion_of(result) != nullptr;
   // The whole motion has force and bond among its unknowns.
   const double of_bond = record.frame_computed && !by_motion ? record.bond->tolerance : 0.0;
   const double of_force = by_motion ? 0.0 : tolerances.me_re;
   if (tolerances.m2 + tolerances.m3 + tolerances.exciter + of_force + of_bond == 0.0) return {};
   Laws parts(found.size());
+  MachineTolerances changed_tolerances = tolerances;
+  if (by_motion && motion_of(result)->any_force) changed_tolerances.me_re = machine_agreement;
   const auto add = [&](double tolerance, double most_step,
                        const std::function<void(RecordArguments &, double)> &change) {
     if (tolerance == 0.0) return;
@@ -152,7 +160,15 @@ Laws machine_parts(const MachineTolerances &tolerances, const RecordArguments &a
       changed.bond_tolerance = fmt::format("{:.17g}", 100.0 * record.bond->tolerance);
     }
     change(changed, step);
-    const Laws again = laws_of(identify(read(changed, way)));
+    Record other = read(changed, way);
+    other.tolerances = changed_tolerances;
+    Found of_other = identify(other);
+    // Flights tell force over mass: with another mass one motion follows the record with another force only.
+    if (by_motion && motion_of(result)->is_noise && !(motion_of(of_other) && motion_of(of_other)->is_noise)) {
+      changed_tolerances.me_re = other.tolerances.me_re = machine_agreement;
+      of_other = identify(other);
+    }
+    const Laws again = laws_of(of_other);
     for (std::size_t i = 0; i < parts.size(); ++i)
       for (const auto value : {&MachinePart::k, &MachinePart::c, &MachinePart::D})
         parts[i].*value = std::hypot(parts[i].*value, tolerance / step * (again[i].*value - found[i].*value));
@@ -211,14 +227,12 @@ void run_two_sided(const Arguments &arguments, const RecordSetting &setting, con
   TimedProgress progress;
   TwoSidedRecord found = identify_two_sided(
       record, setting, [&progress](const std::string &what) { progress.tell("{}", what); });
-  const Laws parts = machine_parts(record.tolerances, arguments.record, way, record, laws_of(found), true,
-                                   [&](Record changed) {
-                                     changed.tolerances = record.tolerances;
-                                     RecordSetting same = setting;
-                                     same.search = found.motion.any_force;
-                                     same.force = found.motion.force.mean;
-                                     return identify_two_sided(changed, same);
-                                   });
+  const Laws parts = machine_parts(arguments.record, way, record, found, [&](const Record &changed) {
+    RecordSetting same = setting;
+    same.search = false;
+    same.force = found.motion.force.mean;
+    return identify_two_sided(changed, same);
+  });
   for (std::size_t half = 0; half < parts.size(); ++half)
     found.halves[half].machine = parts[half];
   publish(arguments, place, record, found, [&](const fs::path &folder) {
@@ -253,14 +267,12 @@ void run(const Arguments &arguments) {
   const std::optional<std::string> doubt = contradiction(found);
   if (doubt && !arguments.anyway)
     throw std::runtime_error(fmt::format("{}: {} (--anyway shows the result)", found.file.string(), *doubt));
-  const Laws parts = machine_parts(record.tolerances, arguments.record, way, record, laws_of(found),
-                                   found.motion.has_value(), [&](Record changed) {
-                                     changed.tolerances = record.tolerances;
-                                     RecordSetting same = setting;
-                                     same.window = 0;
-                                     same.search = found.motion && found.motion->any_force;
-                                     return identify_record(changed, same);
-                                   });
+  const Laws parts = machine_parts(arguments.record, way, record, found, [&](const Record &changed) {
+    RecordSetting same = setting;
+    same.window = 0;
+    same.search = false;
+    return identify_record(changed, same);
+  });
   if (!parts.empty()) found.machine = parts.front();
   std::optional<LumpedComparison> compared;
   if (arguments.compare) compared = compare_lumped(record, found);

@@ -139,8 +139,9 @@ std::optional<std::string> contradiction(const IdentifiedRecord &record) {
     return fmt::format("k is {:.4g} N/m, and no soil has a negative stiffness; to be checked: {}", law.k.mean,
                        causes);
   if (law.k.half_width > law.k.mean)
-    return fmt::format("k is {:.4g} +- {:.2g} N/m, which says nothing; to be checked: {}", law.k.mean,
-                       law.k.half_width, causes);
+    return fmt::format("k is {:.4g} +- {:.2g} N/m, which says nothing, of {} contacts or cycles; to be "
+                       "checked: whether the record is long enough, {}",
+                       law.k.mean, law.k.half_width, law.blocks, causes);
   constexpr double much = 0.5; // of the drum's acceleration
   if (record.left && *record.left > much)
     return fmt::format(

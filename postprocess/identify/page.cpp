@@ -287,7 +287,7 @@ std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
         "acts on the force as k and c do, and makes most of their intervals. A phase known better, or "
         "stiffer soil, on which the drum lifts off, narrows them.");
   if (record.k_B && record.k_1)
-    lines.push_back(fmt::format("A meter would show k_B = {:.4g} MN/m, with the forces of the frame {:.4g} "
+    lines.push_back(fmt::format("A meter would show k_B = {:.4g} MN/m, without the frame's force {:.4g} "
                                 "MN/m: the soil's stiffness in unbroken contact only.",
                                 *record.k_B / 1e6, *record.k_1 / 1e6));
   if (record.force_difference >= 0.0)

@@ -478,7 +478,7 @@ PageTable law_table(const MapAxis &axis, const Points &points) {
 PageTable meaning_table(const MapAxis &axis, const Course &course) {
   const ShownAxis shown = shown_axis(axis);
   PageTable table("meaning", fmt::format("What a CMV may mean: {}", shown.label),
-                  fmt::format("CMV (-) | {} with this CMV | number of them", axis.name), 2);
+                  fmt::format("CMV (-) | {} with this CMV | number of them, at least", axis.name), 2);
   const double highest = *std::max_element(course.values.begin(), course.values.end());
   constexpr double rows = 12.0;
   const double exponent = std::floor(std::log10(std::max(highest, 1.0) / rows));
@@ -497,7 +497,8 @@ PageTable meaning_table(const MapAxis &axis, const Course &course) {
     table.add({fmt::format("{:g}", cmv), words.empty() ? no_value : words, std::to_string(places.size())});
   }
   table.notes = {
-      "Interpolated between the points; ups and downs of less than 2 % of the range do not count."};
+      "Interpolated between the points: a finer axis may show more. Ups and downs of less than 2 % of the "
+      "range do not count."};
   return table;
 }
 

@@ -1,5 +1,6 @@
 #include "passes/page.h"
 
+#include "bed/relative_density.h"
 #include "pages/figure_data.h"
 #include "pages/page.h"
 #include "passes/animation.h"
@@ -407,8 +408,7 @@ std::string moist_words(const PassesResult &one) {
 std::string worth_of(const Results &results) {
   std::vector<std::string> loosened;
   std::string conditions = moist_words(results.front());
-  // The densest that vertical shaking leaves of soil as case gravel, inside (inputs/study/cyclic).
-  const double shaken = results.front().flat ? 0.825 : 0.610;
+  const double shaken = densest_by_shaking(results.front().flat);
   const std::size_t layers = results.front().layers();
   for (std::size_t layer = layers; layer-- > 0;) {
     const std::string name = layer + 1 == layers ? "the lift" : fmt::format("layer {}", layer + 1);

@@ -281,14 +281,14 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
     if (std::any_of(taken.begin(), taken.end(), [&](const Taken &other) { return other.place == *place; }))
       csv_fault(table.file(), 0, column.header,
                 refusal("its use for " + name, source.header, "a column of its own for each signal"));
-    taken.push_back({&into, *place, factor_of(table, *place, name, source)});
+    const bool clock = name == "time" && table.has_clock_times(*place); // 'hh:mm:ss' is no unit
+    taken.push_back({&into, *place, clock ? 1.0 : factor_of(table, *place, name, source)});
     const std::string unit = name == pulse_name    ? "which rises once per revolution"
                              : source.factor       ? fmt::format("times {:g}", *source.factor)
                              : column.unit.empty() ? "in SI units"
                                                    : "in " + column.unit;
     understood += fmt::format("{}{} is column {} '{}' {}", understood.empty() ? "" : ", ", name, *place + 1,
-                              column.header,
-                              name == "time" && table.has_clock_times(*place) ? "with clock times" : unit);
+                              column.header, clock ? "with clock times" : unit);
     return column.header;
   };
   const bool any_signal_named =

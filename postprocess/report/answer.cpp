@@ -1,5 +1,6 @@
 #include "report/answer.h"
 
+#include "bed/relative_density.h"
 #include "report/chain/engine_comparison.h"
 #include "report/chain/tables.h"
 #include "runs/parameter_file.h"
@@ -218,6 +219,19 @@ std::string of_each(const BedGroup &group, const std::function<double(const BedM
   return words.size() > 1 && distinct(values).size() == 1 ? values.front() : enumerated(words);
 }
 
+/// What the results of a bed are worth, told before them.
+std::string worth_of(const BedGroup &group) {
+  std::string words = "Settlement and change of density of a bed are not those of a site; forces, "
+                      "accelerations and stiffness count as means over several beds.";
+  const BedResult &first = *group.runs.front();
+  const double solid = 1.0 / (1.0 + first.measures.void_ratio_start);
+  if (const double shaken = densest_by_shaking(per_metre(first.run)); solid > shaken)
+    words += fmt::format(" The soil begins at a solid fraction of {:.3f}; shaking leaves at most {:.3f} of "
+                         "such soil, so that it can only loosen: disregard how its density changes.",
+                         solid, shaken);
+  return words;
+}
+
 void add_group(Answer &answer, const BedGroup &group) {
   const Run &run = group.runs.front()->run;
   std::vector<std::string> names;
@@ -240,7 +254,8 @@ void add_group(Answer &answer, const BedGroup &group) {
     answer.sentences.push_back({scene + ". It ends before its first complete cycle.", "Bed."});
     return;
   }
-  answer.sentences.push_back({scene + ".", "Bed."});
+  answer.sentences.push_back({worth_of(group), "Bed."});
+  answer.sentences.push_back({scene + "."});
   if (const std::string roller = roller_words(run.parameters); !roller.empty())
     answer.sentences.push_back({roller});
   const auto risen = [](const BedResult *result) { return result->measures.settlement < 0.0; };

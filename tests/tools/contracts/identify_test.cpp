@@ -16,6 +16,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <random>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -326,6 +327,37 @@ TEST_F(IdentifyCommand, ShowsWhatTolerancesOfTheMachineDo) {
   EXPECT_NEAR(machine({"--m2-tolerance", "2"}, "k_machine [N/m]"), 2.84245e6, 16e3);
   expect_refused({"measured.csv", "--roller", "mine", "--phase", "0", "--m2-tolerance", "-1"},
                  "--m2-tolerance is '-1'; allowed: ");
+}
+
+// The drum flies in each cycle, so that the record tells the exciter's force over the mass. Oracle: what the
+// command itself finds with a mass that is 1 % larger.
+TEST_F(IdentifyCommand, ShowsWhatTolerancesDoWhereTheDrumFlies) {
+  const post::ChainParameters p = low_CA3500();
+  const post::ChainHistory history = post::solve_chain(p, 25, 60).history;
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 0.3);
+  std::string text = "time,a_drum,a_frame\n";
+  for (std::size_t i = 5 * 60; i < history.size(); ++i)
+    text += post::csv_line({post::number_text(history.time[i]),
+                            post::number_text(history.a_drum[i] + noise(random)),
+                            post::number_text(history.a_frame[i] + 0.1 * noise(random))});
+  post::write_files({{scratch_ / "measured.csv", text}});
+  const auto found = [&](double mass) {
+    well(identify({"measured.csv", "--frequency", post::number_text(p.omega / 6.283185307179586), "--phase",
+                   "0", "--Fw", post::number_text(p.Fw), "--m2", post::number_text(mass), "--m3",
+                   post::number_text(p.m3), "--m2-tolerance", "1", "--out", "found"}));
+    return post::read_table(scratch_ / "found/identify.csv");
+  };
+  const post::Table said = found(p.m2), other = found(1.01 * p.m2);
+  for (const char *name : {"k", "c", "D"}) {
+    const std::string column = fmt::format("{} [{}]", name,
+                                           name[0] == 'k'   ? "N/m"
+                                           : name[0] == 'c' ? "N s/m"
+                                                            : "-");
+    const double change = std::fabs(other.numbers(column).front() - said.numbers(column).front());
+    const double told = std::stod(said.text(fmt::format("{}_machine{}", name, column.substr(1))).front());
+    EXPECT_NEAR(told, change, 0.15 * change) << name;
+  }
 }
 
 TEST_F(IdentifyCommand, TakesTheDataOfARoller) {

@@ -221,6 +221,7 @@ TEST_F(RecordFiles, ClockTimesCountFromTheFirstRow) {
   EXPECT_EQ(exact.a_drum, history_.a_drum);
   // The logger begins a new file at midnight.
   const std::string all = clock(7);
+  EXPECT_EQ(read_record(put("unit.csv", "time [hh:mm:ss]" + all.substr(all.find(',')))).time, exact.time);
   const std::size_t midnight = all.find("00:00:");
   const std::vector<fs::path> days = {put("first.csv", all.substr(0, midnight)),
                                       put("second.csv", "time,a_drum\n" + all.substr(midnight))};
