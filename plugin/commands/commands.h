@@ -61,6 +61,9 @@ void layers_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// drumlin/pick NAME WHICH LIST: sets a variable to the largest number of a list, or to that in a place.
 void pick_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
+/// drumlin/repeat NAME N COMMAND ...: gives a variable the values 1 to N, and executes commands for each.
+void repeat_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
 /// drumlin/suction NAME GROUP strength S solid P contacts Z: sets a variable to the suction that gives soil a
 /// tensile strength.
 void suction_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
@@ -87,6 +90,7 @@ void for_each_command(Add &&add) {
   add(CommandType<variables_command>(), "drumlin/variables", "declares and checks the variables of a table");
   add(CommandType<roller_command>(), "drumlin/roller", "takes the values of a roller from its file");
   add(CommandType<pick_command>(), "drumlin/pick", "takes a number from a list");
+  add(CommandType<repeat_command>(), "drumlin/repeat", "executes commands for each of 1 to N");
   add(CommandType<layers_command>(), "drumlin/layers", "gives contacts the laws of the layers of a bed");
   add(CommandType<outputs_command>(), "drumlin/outputs", "backs up the files of an earlier run");
   add(CommandType<read_command>(), "drumlin/read", "reads a bed or a stopped run");

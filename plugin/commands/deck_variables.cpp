@@ -165,6 +165,16 @@ void DeckVariables::stop_on_fault(LAMMPS_NS::LAMMPS *lmp) {
                       "drumlin/variable, before the deck records, settles or runs");
 }
 
+std::vector<double> list_numbers(const Arguments &in, const std::string &what, const std::string &list,
+                                 const Range &range) {
+  std::vector<double> numbers;
+  for (const std::string &entry : list_entries(list)) {
+    numbers.push_back(parse_number(entry));
+    if (!in_range(numbers.back(), range)) in.fail(what, list, allowed_text(range));
+  }
+  return numbers;
+}
+
 bool same_value(const std::string &a, const std::string &b) {
   const std::vector<std::string> of_a = list_entries(a);
   const std::vector<std::string> of_b = list_entries(b);

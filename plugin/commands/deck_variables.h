@@ -6,6 +6,7 @@
 #include "engine.h"
 
 #include "commands/bed_files.h"
+#include "support/arguments.h"
 
 #include <optional>
 #include <string>
@@ -78,6 +79,9 @@ private:
   LAMMPS_NS::Variable &variables_;
 };
 
+/// The numbers of a list of an argument, separated by commas; ends the run if one is not in the range.
+std::vector<double> list_numbers(const Arguments &in, const std::string &what, const std::string &list,
+                                 const Range &range);
 /// The words of a text, which are separated by blanks.
 std::vector<std::string> words_of(const std::string &text);
 /// Whether a name is in a list.

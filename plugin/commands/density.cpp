@@ -119,11 +119,7 @@ private:
 std::vector<double> known(const Arguments &in, const std::string &what, const std::string &text,
                           const Range &range, int layers) {
   if (text == "unknown") return {};
-  std::vector<double> numbers;
-  for (const std::string &entry : list_entries(text)) {
-    numbers.push_back(parse_number(entry));
-    if (!in_range(numbers.back(), range)) in.fail(what, text, allowed_text(range));
-  }
+  std::vector<double> numbers = list_numbers(in, what, text, range);
   if (numbers.size() != static_cast<std::size_t>(layers))
     in.fail(what, text, fmt::format("{}, and the bed has {} of them", one_each, layers));
   return numbers;

@@ -118,13 +118,7 @@ variables_of(const std::string &asked, const std::string &roller_name, const Val
 /// Gives contact j, of a soil ball of type j, its stiffness and damping ratio.
 void give_laws(LAMMPS *lmp, Arguments &in) {
   const auto read = [&in](const std::string &name, const Range &range) {
-    const std::string text = in.word(name, "a number for each contact, separated by commas");
-    std::vector<double> numbers;
-    for (const std::string &entry : list_entries(text)) {
-      numbers.push_back(parse_number(entry));
-      if (!in_range(numbers.back(), range)) in.fail(name, text, allowed_text(range));
-    }
-    return numbers;
+    return list_numbers(in, name, in.word(name, "a number for each contact, separated by commas"), range);
   };
   const std::vector<double> stiffnesses = read("stiffnesses", Range::positive);
   const std::vector<double> ratios = read("damping ratios", Range::non_negative);

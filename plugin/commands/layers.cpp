@@ -28,11 +28,7 @@ int type_of(int layer) { return layer == 0 ? 1 : layer + 3; }
 /// its values
 std::vector<double> values(Arguments &in, const std::string &name, Range range, int layers) {
   const std::string text = in.word(name, "a number for each layer, separated by commas");
-  std::vector<double> numbers;
-  for (const std::string &entry : list_entries(text)) {
-    numbers.push_back(parse_number(entry));
-    if (!in_range(numbers.back(), range)) in.fail(name, text, allowed_text(range));
-  }
+  std::vector<double> numbers = list_numbers(in, name, text, range);
   if (numbers.size() == 1) numbers.resize(static_cast<std::size_t>(layers), numbers[0]);
   if (numbers.size() != static_cast<std::size_t>(layers))
     in.fail(
@@ -188,11 +184,7 @@ void pick_command(LAMMPS *lmp, int narg, char **arg) {
   const std::string name = in.word("variable", "the name of a variable");
   const std::string which = in.word("which", allowed), list = in.word("list", "numbers separated by commas");
   in.expect_end("a variable, which number, and a list");
-  std::vector<double> numbers;
-  for (const std::string &entry : list_entries(list)) {
-    numbers.push_back(parse_number(entry));
-    if (!std::isfinite(numbers.back())) in.fail("list", list, "finite numbers separated by commas");
-  }
+  const std::vector<double> numbers = list_numbers(in, "list", list, Range::any);
   double picked = numbers.front();
   if (which == "largest") {
     picked = *std::max_element(numbers.begin(), numbers.end());

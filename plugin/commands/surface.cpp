@@ -1,4 +1,5 @@
 #include "commands/commands.h"
+#include "commands/deck_variables.h"
 #include "commands/vertical_lines.h"
 
 #include "support/arguments.h"
@@ -11,7 +12,7 @@ using LAMMPS_NS::LAMMPS;
 
 void surface_command(LAMMPS *lmp, int narg, char **arg) {
   Arguments in(lmp->error, "drumlin/surface", narg, arg);
-  std::string name = in.word("variable", "the name of a variable");
+  const std::string name = in.word("variable", "the name of a variable");
   const int group = in.group("group", lmp->group);
   double spacing = 0.0, middle = 0.0, beyond = 0.0;
   while (!in.empty()) {
@@ -33,10 +34,8 @@ void surface_command(LAMMPS *lmp, int narg, char **arg) {
           .mean_height([&](int i) { return (lmp->atom->mask[i] & bit) != 0; }, middle, beyond);
   if (std::isnan(height))
     in.fail("group", lmp->group->names[group], "one with a ball that a vertical line meets there");
-  std::string words[] = {name, "string", fmt::format("{:.17g}", height)};
-  char *pointers[] = {words[0].data(), words[1].data(), words[2].data()};
-  lmp->input->variable->set(3, pointers);
-  engine::log_message(lmp, fmt::format("drumlin/surface: {} at {:.4g} m\n", words[0], height));
+  DeckVariables(lmp).set(name, fmt::format("{:.17g}", height));
+  engine::log_message(lmp, fmt::format("drumlin/surface: {} at {:.4g} m\n", name, height));
 }
 
 } // namespace drumlin

@@ -197,6 +197,21 @@ TEST_P(DampingRestitution, IsThatOfAnImpactInLammps) {
 
 } // namespace restitution
 
+// drumlin/repeat: sums of whole numbers, of which the inner ones are within the outer ones.
+TEST(Repeat, ExecutesCommandsForEachNumber) {
+  for (const int ranks : {1, 2}) {
+    const Scratch scratch;
+    const Outcome outcome = run_host(host_pair_style() + host_properties(),
+                                     "variable sum equal 0\n"
+                                     "drumlin/repeat n 4 \"variable sum equal $(v_sum+v_n)\" "
+                                     "\"drumlin/repeat m ${n} 'variable sum equal $(v_sum+v_m^2)'\"\n"
+                                     "drumlin/repeat never 0 \"variable sum equal 0\"\n"
+                                     "print \"sum ${sum} of ${n}\"\n",
+                                     scratch.path(), ranks);
+    EXPECT_TRUE(outcome.says("\nsum 60 of 4\n")) << outcome.output; // 1 + ... + 4, 1 + 5 + 14 + 30
+  }
+}
+
 // drumlin/surface against closed forms of the mean height of spheres and discs.
 namespace surface {
 
