@@ -78,8 +78,6 @@ void FixDrumTravel::parse(int narg, char **arg) {
   travel_.to = *to;
   travel_.speed = *speed;
   if (const std::string fault = travel_.invalid(); !fault.empty()) in.fail(fault);
-  if (radius_ && rotation_ != Rotation::driven)
-    in.fail("keyword radius", physics::detail::number_text(*radius_), "with rotation driven only");
   if (inertia_ && rotation_ == Rotation::none)
     in.fail("keyword inertia", physics::detail::number_text(*inertia_), "with rotation driven or towed only");
   if (drum_group_ < 0) drum_group_ = igroup;

@@ -41,6 +41,7 @@ FixGuard::FixGuard(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg
   extscalar = extvector = 0;
   critical_.value = std::numeric_limits<double>::infinity();
   drumlin::Arguments in(error, "fix guard", narg - 3, arg + 3);
+  if (!in.empty() && (in.peek() == "on" || in.peek() == "off")) on_ = in.word("on or off") == "on";
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (keyword == "every")
@@ -57,6 +58,7 @@ FixGuard::FixGuard(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg
 }
 
 int FixGuard::setmask() {
+  if (!on_) return 0;
   return FixConst::INITIAL_INTEGRATE | FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGHBOR | FixConst::PRE_FORCE |
          FixConst::END_OF_STEP;
 }
@@ -73,7 +75,9 @@ void FixGuard::setup_pre_force(int) {
   begin_links();
 }
 
-void FixGuard::setup(int) { check_numbers(); }
+void FixGuard::setup(int) {
+  if (on_) check_numbers();
+}
 
 /// The links of the set-up are checked here, when all fixes have been set up and all bonds have been
 /// computed.

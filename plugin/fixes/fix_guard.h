@@ -79,6 +79,7 @@ private:
   double steps_per_contact() const;
   void log_at_setup();
 
+  bool on_ = true;              // off: no check
   bigint every_ = 1;            // steps between checks of the numbers
   bigint links_ = 100;          // steps between checks of contacts and bonds
   double step_ = 1.0;           // largest allowed time step over the critical step
