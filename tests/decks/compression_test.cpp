@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 #include <numeric>
 #include <string>
@@ -273,6 +274,41 @@ TEST(BiaxialEquilibrium, TheForcesOnThePlatesGoThroughEveryCut) {
 TEST(TriaxialEquilibrium, TheForcesOnThePlatesGoThroughEveryCut) {
   expect_equilibrium("triaxial", {{"columns", "4"}, {"rows", "4"}, {"layers", "6"}}, 3,
                      100e3 * std::pow(6 * diameter, 2));
+}
+
+// Another stress path is another force on the side platens, defined before the file compressed: with a
+// constant mean stress the energy is balanced as with a constant side stress.
+TEST(StressPath, OfAConstantMeanStressIsKeptAndBalanced) {
+  const std::string soil = chain_deck("../soil").string();
+  for (const std::string test : {"biaxial", "triaxial"}) {
+    const double sides = test == "biaxial" ? 1.0 : 2.0;
+    const std::string push =
+        fmt::format("-({}e3*v_side-f_on_top[3]/(v_width*v_depth))/{}*", sides + 1.0, sides);
+    std::string deck = post::read_text(soil + "/in." + test);
+    const std::size_t place = deck.rfind("include");
+    deck.insert(place, "variable push_side equal " + push + "v_height*v_depth\n" +
+                           (sides > 1.0 ? "variable push_front equal " + push + "v_width*v_height\n" : ""));
+    const Scratch scratch;
+    post::write_files({{scratch / "in.path", deck}});
+    const std::string layers_of_test = sides > 1.0 ? "5" : "7";
+    well(run_deck(scratch / "in.path",
+                  {{"here", soil},
+                   {"sample", sides > 1.0 ? "face_centred" : "hexagonal"},
+                   {"columns", "4"},
+                   {"layers", layers_of_test},
+                   {"samples_of_strain", "4"},
+                   {"ramp", "400"},
+                   {"inertial_number", "1e-4"},
+                   {"strain", "1e-4"}},
+                  scratch.path()));
+    const post::Table rows = post::read_table(scratch / (test + ".csv"));
+    const std::vector<double> axial = rows.numbers("axial_stress_kPa"),
+                              side = rows.numbers("side_stress_kPa");
+    for (std::size_t n = 0; n < axial.size(); ++n)
+      EXPECT_NEAR((axial[n] + sides * side[n]) / (sides + 1.0), 100.0, 0.1) << test;
+    EXPECT_GT(axial.back(), 120.0) << test;
+    expect_energy_balance(rows, 1e-2); // 0.2 with the work of a constant side stress
+  }
 }
 
 /// Stiffness of the contacts of the triaxial test, N/m, and layers of its lattices.
