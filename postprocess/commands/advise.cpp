@@ -3,7 +3,6 @@
 #include "advice/bed.h"
 #include "advice/steps.h"
 #include "commands/chain_options.h"
-#include "commands/text_options.h"
 #include "engine/deck_run.h"
 #include "engine/places.h"
 #include "experiment/study.h"
@@ -13,16 +12,13 @@
 #include "support/constants.h"
 #include "support/progress.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -32,20 +28,37 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Arguments {
-  ChainArguments chain;
-  std::string error = "1e-3";
-  std::string stepping = "second";
-  std::string measure = "velocity";
-  std::string cycles = "30";
-  std::optional<std::string> from;
-  bool bed = false;
-  std::optional<std::string> question;
-  std::optional<std::string> within;
-};
-
-/// The largest number that in.chain allows.
+/// The largest number of cycles that in.chain allows.
 constexpr int most_cycles = 10'000'000;
+
+struct Arguments : Options {
+  explicit Arguments(Command &of) : Options(of) {
+    only_with(bed, {&question, &within}, "with --bed");
+    for (const Option *option : all_of_command())
+      if (option != &from && option != &question && option != &within) not_with(bed, {option});
+  }
+  ChainArguments chain{command()};
+  Number error =
+      number("--error", {1e-15, 1.0, "", false, false, true}, "relative error that is allowed", "1e-3");
+  Text measure = text("--measure", "TEXT", "error of: velocity, force or acceleration", "velocity");
+  Text stepping = text("--stepping", "TEXT", "second or stock", "second");
+  Count cycles = count("--cycles", 1, most_cycles, "length of the run, for its time", "30");
+  Text from =
+      text("--from", "DIR",
+           "folder of an accuracy study of your own (with --bed: of any study of beds), instead of the "
+           "project's");
+  Flag bed = flag(
+      "--bed",
+      "advise on a bed instead: the cheapest scene that a study of beds has measured (see `drumlin study "
+      "fidelity`)");
+  Text question = text("--question", "TEXT",
+                       "with --bed: force, acceleration, settlement, stiffness or density, the gain of solid "
+                       "fraction of "
+                       "a lift under a roller that drives (study drive)");
+  Text within =
+      text("--within", "TEXT",
+           "with --bed: error that is allowed, 10% if not given; of settlement also in mm per cycle, as 2mm");
+};
 
 struct Measure {
   const char *name;
@@ -57,10 +70,10 @@ constexpr std::array<Measure, 3> measures = {
      {"force", ErrorMeasure::force, "relative error of the peak contact force"},
      {"acceleration", ErrorMeasure::acceleration, "relative error of the drum's peak acceleration"}}};
 
-const Measure &measure_of(const std::string &name) {
+const Measure &measure_of(const Text &name) {
   const auto *const found =
-      std::find_if(measures.begin(), measures.end(), [&](const Measure &m) { return name == m.name; });
-  if (found == measures.end()) throw UsageError(refusal("--measure", name, "velocity, force, acceleration"));
+      std::find_if(measures.begin(), measures.end(), [&](const Measure &m) { return name.text() == m.name; });
+  if (found == measures.end()) throw name.refused("velocity, force, acceleration");
   return *found;
 }
 
@@ -91,11 +104,10 @@ constexpr std::array<Question, 5> questions = {{{"force", "force", "study/fideli
                                                 {"stiffness", "k", "study/fidelity"},
                                                 {"density", "lift_gain", "study/drive"}}};
 
-const Question &question_of(const std::string &name) {
-  const auto *const found =
-      std::find_if(questions.begin(), questions.end(), [&](const Question &one) { return name == one.name; });
-  if (found == questions.end())
-    throw UsageError(refusal("--question", name, "force, acceleration, settlement, stiffness, density"));
+const Question &question_of(const Text &name) {
+  const auto *const found = std::find_if(questions.begin(), questions.end(),
+                                         [&](const Question &one) { return name.text() == one.name; });
+  if (found == questions.end()) throw name.refused("force, acceleration, settlement, stiffness, density");
   return *found;
 }
 
@@ -135,9 +147,9 @@ void tell_scatter(const BedExperiment &experiment, const BedQuestion &request) {
   }
 }
 
-void run_bed(const Arguments &arguments) {
+void advise_on_bed(const Arguments &arguments) {
   BedQuestion request;
-  const Question &question = question_of(arguments.question.value_or(""));
+  const Question &question = question_of(arguments.question);
   request.name = question.name;
   request.quantity = question.quantity;
   judge_within(arguments.within.value_or("10%"), request);
@@ -174,15 +186,15 @@ void run_bed(const Arguments &arguments) {
     fmt::print("  run        {} {}\n", front_command(), words);
 }
 
-void run(const Arguments &arguments) {
+void advise_on_chain(const Arguments &arguments) {
   AdviceRequest request;
   const AskedChain asked = judged_chain(arguments.chain);
   request.parameters = asked.parameters;
-  request.stepping = choice_option("--stepping", arguments.stepping, {"second", "stock"});
-  request.error = number_option("--error", arguments.error, {1e-15, 1.0, "", false, false, true});
+  request.stepping = choice_option("--stepping", *arguments.stepping, {"second", "stock"});
+  request.error = *arguments.error;
   const Measure &measure = measure_of(arguments.measure);
   request.measure = measure.measure;
-  const int cycles = count_option("--cycles", arguments.cycles, 1, most_cycles);
+  const int cycles = *arguments.cycles;
   const fs::path folder =
       arguments.from ? path_option("--from", *arguments.from) : input_file("study/accuracy");
   if (!fs::is_regular_file(folder / "chain.csv"))
@@ -234,54 +246,27 @@ void run(const Arguments &arguments) {
              front_command(), deck_words(arguments.chain), request.stepping, cycles, advice.steps_per_cycle);
 }
 
+void run(const Arguments &arguments) {
+  if (arguments.bed)
+    advise_on_bed(arguments);
+  else
+    advise_on_chain(arguments);
+}
+
 } // namespace
 
-void add_advise_command(CLI::App &app, Session &) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App *command = app.add_subcommand(
-      "advise",
+void add_advise_command(CLI::App &app, Session &session) {
+  add_command(
+      app, session, "advise",
       "Steps per cycle that a run of the chain needs for an error, by the measured curves of the accuracy "
       "study; for other chains than the measured ones scaled, with a margin. With --bed the cheapest scene "
-      "of a bed, and how many beds of each scene give its mean.");
-  command->footer("Examples:\n"
-                  "  drumlin advise --error 1e-3 --case II\n"
-                  "  drumlin advise --bed --question force --within 20%\n"
-                  "  drumlin advise --bed --question settlement --within 2mm\n"
-                  "  drumlin advise --bed --from inputs/study/scatter --question stiffness --within 10%\n");
-  add_chain_options(*command, arguments->chain);
-  text_option(command, "--error", "NUMBER", arguments->error, "relative error that is allowed");
-  text_option(command, "--measure", "TEXT", arguments->measure, "error of: velocity, force or acceleration");
-  text_option(command, "--stepping", "TEXT", arguments->stepping, "second or stock");
-  text_option(command, "--cycles", "COUNT", arguments->cycles, "length of the run, for its time");
-  text_option(command, "--from", "DIR", arguments->from,
-              "folder of an accuracy study of your own (with --bed: of any study of beds), instead of the "
-              "project's");
-  command->add_flag(
-      "--bed", arguments->bed,
-      "advise on a bed instead: the cheapest scene that a study of beds has measured (see `drumlin study "
-      "fidelity`)");
-  text_option(
-      command, "--question", "TEXT", arguments->question,
-      "with --bed: force, acceleration, settlement, stiffness or density, the gain of solid fraction of "
-      "a lift under a roller that drives (study drive)");
-  text_option(
-      command, "--within", "TEXT", arguments->within,
-      "with --bed: error that is allowed, 10% if not given; of settlement also in mm per cycle, as 2mm");
-  command->callback([arguments, command] {
-    const std::set<std::string> of_question = {"--question", "--within"},
-                                of_all = {"--bed", "--from", "--help"};
-    for (const CLI::Option *option : command->get_options()) {
-      const std::string name = option->get_name();
-      if (option->count() == 0 || of_all.count(name) > 0 || (of_question.count(name) > 0) == arguments->bed)
-        continue;
-      throw UsageError(
-          refusal(name, option->as<std::string>(), arguments->bed ? "without --bed" : "with --bed"));
-    }
-    if (arguments->bed)
-      run_bed(*arguments);
-    else
-      run(*arguments);
-  });
+      "of a bed, and how many beds of each scene give its mean.",
+      run,
+      "Examples:\n"
+      "  drumlin advise --error 1e-3 --case II\n"
+      "  drumlin advise --bed --question force --within 20%\n"
+      "  drumlin advise --bed --question settlement --within 2mm\n"
+      "  drumlin advise --bed --from inputs/study/scatter --question stiffness --within 10%\n");
 }
 
 } // namespace drumlin::post

@@ -1,10 +1,10 @@
-#include "commands/bed.h"
+#include "commands/commands.h"
 
 #include "bed/known_gradings.h"
 #include "bed/relative_density.h"
-#include "commands/commands.h"
+#include "bed/packing.h"
+#include "commands/command.h"
 #include "commands/made_packings.h"
-#include "commands/text_options.h"
 #include "engine/deck_run.h"
 #include "pages/figure_data.h"
 #include "pages/gnuplot.h"
@@ -13,7 +13,6 @@
 #include "support/progress.h"
 #include "support/usage_error.h"
 
-#include <CLI/CLI.hpp>
 #include <boost/algorithm/string/split.hpp>
 #include <fmt/format.h>
 
@@ -22,10 +21,11 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <memory>
+#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -35,35 +35,101 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Number {
-  const char *option;
-  double PackingOptions::*value;
-  Range range;
-  const char *help;
+/// Balls in a box, and the file that gets them.
+struct BedRequest {
+  PackingOptions packing;
+  /// Layers, the lowest first, instead of `packing` and `asked`: empty for a bed of one kind of soil.
+  struct Layer {
+    BedLayer bed;
+    std::optional<SieveCurve> asked;
+  };
+  std::vector<Layer> layers;
+  std::vector<Spot> spots;         ///< of the lowest layer
+  double density = 2650.0;         ///< of a ball, kg/m3; in two dimensions of a disc 1 m thick
+  std::optional<SieveCurve> asked; ///< the whole curve that PackingOptions::sieve is the coarser part of
+  std::filesystem::path out = "results/bed/balls.data"; ///< its folder is made if missing
 };
+
 constexpr Range side = {PackingOptions::length_range.least, PackingOptions::length_range.most, "m"};
 constexpr Range side_or_zero = {side.least, side.most, "m", true};
-constexpr std::array<Number, 5> number_options = {{
-    {"--width", &PackingOptions::width, side, "width of the box [m], wall to wall"},
-    {"--depth", &PackingOptions::depth, side_or_zero,
-     "depth of the box [m]; 0: two dimensions, the balls are discs"},
-    {"--height", &PackingOptions::height, side_or_zero, "filled height [m]; 0: as needed"},
-    {"--radius-min", &PackingOptions::radius_min, PackingOptions::radius_range, "smallest radius [m]"},
-    {"--radius-max", &PackingOptions::radius_max, PackingOptions::radius_range, "largest radius [m]"},
-}};
 
 /// More would need more types than the engine's neighbour lists are made for; a road has half a dozen layers.
 constexpr std::size_t most_layers = 10;
 
-struct Arguments {
-  std::string balls, density, seed, grading, out = BedRequest().out.string();
-  std::array<std::string, number_options.size()> numbers;
-  std::optional<std::string> sieve, cut;
-  std::vector<std::string> layers, spots, relative_densities, packings;
-  std::optional<std::string> friction, rolling; ///< of the soil, once it lies
-  bool has_balls = false;                       ///< whether --balls was given
-  std::string instead_of_layers; ///< an option that was given and says the same as --layer; empty: none
-  std::string instead_of_sieve;  ///< an option that was given and says the sizes in another way; empty: none
+template <class Value>
+std::string usual(Value PackingOptions::*value) {
+  return fmt::format("{}", PackingOptions().*value);
+}
+
+struct Arguments : Options {
+  explicit Arguments(Command &of) : Options(of) {
+    only_with(sieve, {&cut});
+    for (const Option *option : std::initializer_list<const Option *>{&radius_min, &radius_max, &grading})
+      not_with(*option, {&sieve}, "without " + option->name() + ": the curve says the sizes");
+    for (const Option *option : std::initializer_list<const Option *>{&sieve, &cut, &height})
+      not_with(*option, {&layers});
+    only_with(relative_densities, {&packings, &friction, &rolling});
+    only_with(layers, {&spots});
+  }
+  Count balls =
+      count("--balls", 1, PackingOptions::most_balls, "number of balls", usual(&PackingOptions::balls));
+  Number width = number("--width", side, "width of the box [m], wall to wall", usual(&PackingOptions::width));
+  Number depth =
+      number("--depth", side_or_zero, "depth of the box [m]; 0: two dimensions, the balls are discs",
+             usual(&PackingOptions::depth));
+  Number height =
+      number("--height", side_or_zero, "filled height [m]; 0: as needed", usual(&PackingOptions::height));
+  Number radius_min = number("--radius-min", PackingOptions::radius_range, "smallest radius [m]",
+                             usual(&PackingOptions::radius_min));
+  Number radius_max = number("--radius-max", PackingOptions::radius_range, "largest radius [m]",
+                             usual(&PackingOptions::radius_max));
+  Number density =
+      number("--density", {1e-3, 1e6, "kg/m3"}, "density of a ball [kg/m3]; of a disc, 1 m thick",
+             fmt::format("{:g}", BedRequest().density));
+  Text grading =
+      text("--grading", "NAME",
+           "uniform: every radius as often as any other; mass: the same mass in equal intervals of radius",
+           grading_name(PackingOptions().grading));
+  Text sieve = text(
+      "--sieve", "FILE",
+      fmt::format("grading instead of radii: a table of the laboratory with the columns size (mm) and "
+                  "passing (%) or retained (%) by mass, one of {}, or the smallest and the largest size, as "
+                  "32-48 [mm]",
+                  grading_names()));
+  Text cut = text("--cut", "NUMBER",
+                  "smallest size of a ball with --sieve [mm]; default: so that the balls fill the box to "
+                  "--height, or to half its width");
+  Texts layers = texts_in_a_row(
+      "--layer", "THICKNESS[:SIEVE[:CUT]]",
+      "a layer of the bed, the lowest first; several form a bed of layers with contacts of their own: its "
+      "thickness when it has settled [m], a curve as of --sieve (else radii as of --radius-min, "
+      "--radius-max, --grading), and the smallest size of its balls [mm] (else so that the layer has its "
+      "share of --balls, the same for each); --balls then counts for curves without CUT only");
+  Texts spots = texts_in_a_row(
+      "--spot", "FROM:TO",
+      "a part of the lowest layer, along the way, with contacts of its own, such as a soft spot; may "
+      "be given several times, in the order of the way; x is 0 in the middle [m]");
+  Texts relative_densities =
+      texts_in_a_row("--relative-density", "NUMBER",
+                     "of a layer, or of the whole bed, from 0, the loosest packing of its mix, to 1, the "
+                     "densest; once, or once for each "
+                     "--layer: in.settle then pours the layer with the friction that gives it");
+  Texts packings = texts_in_a_row(
+      "--packings", "FILE",
+      "table of the loosest and the densest packing of the layer's mix and those between: density.csv of "
+      "inputs/soil/in.density, or OUT_packings.csv of an earlier call; once, or once for each --layer; "
+      "default: the stored ones of case gravel for its radii and friction, else a table beside --out, "
+      "which LIGGGHTS makes once, in some minutes");
+  Number friction =
+      number("--friction", {0.0, 1e3},
+             "of the soil once it lies, for --relative-density; default: that of case base, 0.8");
+  Number rolling =
+      number("--rolling", {0.0, 1e3},
+             "rolling friction of the soil once it lies, for --relative-density; default: that of case "
+             "base, 0.45");
+  Seed seed = random_seed("--seed", "of the random numbers", usual(&PackingOptions::seed));
+  ResultPath out =
+      result_file("--out", "the data file; its folder is made if missing", BedRequest().out.string());
 };
 
 /// The curve that an option names, and its name as one word.
@@ -102,14 +168,7 @@ void set_grading(PackingOptions &options, const SieveCurve &curve, const std::st
 
 /// Sets the sizes of the balls from `--sieve` and `--cut`.
 void judge_sieve(const Arguments &arguments, BedRequest &request) {
-  if (!arguments.sieve) {
-    if (arguments.cut) throw UsageError(refusal("--cut", *arguments.cut, "only with --sieve"));
-    return;
-  }
-  if (!arguments.instead_of_sieve.empty())
-    throw UsageError(
-        refusal("--sieve", *arguments.sieve,
-                fmt::format("without {}: the curve says the sizes", arguments.instead_of_sieve)));
+  if (!arguments.sieve) return;
   const auto [curve, name] = asked_grading("--sieve", *arguments.sieve);
   request.asked = curve;
   set_grading(request.packing, curve, name,
@@ -118,21 +177,19 @@ void judge_sieve(const Arguments &arguments, BedRequest &request) {
 }
 
 /// What an option given once, or once for each layer, says of a layer; empty: the option is not given.
-std::string of_layer(const char *option, const std::vector<std::string> &given, std::size_t layer,
-                     std::size_t layers) {
+std::string of_layer(const Texts &option, std::size_t layer, std::size_t layers) {
+  const std::vector<std::string> &given = *option;
   if (given.empty()) return {};
   if (given.size() != 1 && given.size() != layers)
-    throw UsageError(
-        refusal(option, given.back(), fmt::format("once, or once for each of the {} layers", layers)));
+    throw option.refused(given.back(), fmt::format("once, or once for each of the {} layers", layers));
   return given.size() == 1 ? given.front() : given[layer];
 }
 
 /// Friction and rolling friction of the settled soil: --friction and --rolling, or those of case base.
 SoilFriction asked_friction(const Arguments &arguments) {
   SoilFriction soil;
-  constexpr Range range = {0.0, 1e3};
-  if (arguments.friction) soil.friction = number_option("--friction", *arguments.friction, range);
-  if (arguments.rolling) soil.rolling = number_option("--rolling", *arguments.rolling, range);
+  soil.friction = arguments.friction.value_or(soil.friction);
+  soil.rolling = arguments.rolling.value_or(soil.rolling);
   return soil;
 }
 
@@ -141,23 +198,20 @@ MeasuredPackings given_packings(const std::string &file, const Arguments &argume
                                 const PackingOptions &box) {
   const fs::path path = path_option("--packings", file);
   if (!fs::exists(path))
-    throw UsageError(
-        refusal("--packings", file,
-                "the density.csv of a run of inputs/soil/in.density, or a table of packings that "
-                "this command has made"));
+    throw arguments.packings.refused(
+        file, "the density.csv of a run of inputs/soil/in.density, or a table of packings that "
+              "this command has made");
   try {
     MeasuredPackings packings = read_packings(path);
     if (const std::string other = other_balls(packings, box); !other.empty())
-      throw UsageError(refusal("--packings", file, other));
+      throw arguments.packings.refused(file, other);
     const SoilFriction asked = asked_friction(arguments);
     const MeasuredPackings::Row &loosest = packings.of_loosest();
-    const auto refuse_other = [&](const char *option, const std::optional<std::string> &given, double wanted,
-                                  double has) {
-      if (given && wanted != has)
-        throw UsageError(refusal(option, *given, fmt::format("{:g}, of which {} has packings", has, file)));
-    };
-    refuse_other("--friction", arguments.friction, asked.friction, loosest.friction);
-    refuse_other("--rolling", arguments.rolling, asked.rolling, loosest.rolling);
+    for (const auto &[option, wanted, has] :
+         {std::tuple{&arguments.friction, asked.friction, loosest.friction},
+          std::tuple{&arguments.rolling, asked.rolling, loosest.rolling}})
+      if (*option && wanted != has)
+        throw option->refused(fmt::format("{:g}, of which {} has packings", has, file));
     return packings;
   } catch (const std::runtime_error &fault) {
     throw UsageError(fault.what());
@@ -178,27 +232,19 @@ std::optional<MeasuredPackings> stored_packings(const SoilFriction &soil, const 
 /// packings that are not known.
 void pour_layers(const Arguments &arguments, BedRequest &request) {
   const std::size_t layers = request.layers.size();
-  if (arguments.relative_densities.empty()) {
-    for (const auto &[option, given] :
-         {std::pair{"--packings", arguments.packings.empty() ? nullptr : &arguments.packings.front()},
-          std::pair{"--friction", arguments.friction ? &*arguments.friction : nullptr},
-          std::pair{"--rolling", arguments.rolling ? &*arguments.rolling : nullptr}})
-      if (given != nullptr) throw UsageError(refusal(option, *given, "only with --relative-density"));
-    return;
-  }
+  if (!arguments.relative_densities) return;
   const SoilFriction soil = asked_friction(arguments);
   if (!(soil.friction > 0.0))
-    throw UsageError(
-        refusal("--friction", *arguments.friction,
-                "above 0 with --relative-density: without friction all packings are the densest"));
+    throw arguments.friction.refused(
+        "above 0 with --relative-density: without friction all packings are the densest");
   struct Wanted {
     double relative;
     std::optional<MeasuredPackings> packings;
   };
   std::vector<Wanted> wanted;
   for (std::size_t n = 0; n < layers; ++n) {
-    const std::string density = of_layer("--relative-density", arguments.relative_densities, n, layers),
-                      file = of_layer("--packings", arguments.packings, n, layers);
+    const std::string density = of_layer(arguments.relative_densities, n, layers),
+                      file = of_layer(arguments.packings, n, layers);
     constexpr Range between = {0.0, 1.0};
     const PackingOptions &box = request.layers[n].bed.packing;
     wanted.push_back({number_option("--relative-density", density, between),
@@ -214,7 +260,7 @@ void pour_layers(const Arguments &arguments, BedRequest &request) {
           fmt::format("Layer {}", n + 1));
     }
     layer.pouring = wanted[n].packings->pouring(wanted[n].relative);
-    if (arguments.layers.empty())
+    if (!arguments.layers)
       layer.thickness *= layer.packing.balls / static_cast<double>(balls_of(layer));
     else
       layer.packing.balls = balls_of(layer);
@@ -224,11 +270,11 @@ void pour_layers(const Arguments &arguments, BedRequest &request) {
 /// The n-th layer from THICKNESS[:SIEVE[:CUT]]. \param box what the layer shares with the others; its number
 /// of balls is the layer's share of --balls
 BedRequest::Layer asked_layer(const Arguments &arguments, std::size_t n, const PackingOptions &box) {
-  const std::string &text = arguments.layers[n];
+  const std::string &text = (*arguments.layers)[n];
   std::vector<std::string> parts;
   boost::split(parts, text, [](char letter) { return letter == ':'; });
   constexpr std::size_t most_parts = 3;
-  if (parts.size() > most_parts) throw UsageError(refusal("--layer", text, "THICKNESS[:SIEVE[:CUT]]"));
+  if (parts.size() > most_parts) throw arguments.layers.refused(text, "THICKNESS[:SIEVE[:CUT]]");
   BedRequest::Layer layer{{box, number_option("--layer", parts[0], side)}, {}};
   if (parts.size() > 1) {
     const auto [curve, name] = asked_grading("--layer", parts[1]);
@@ -252,33 +298,31 @@ void judge_effects(const Arguments &arguments) {
       return std::count(layer.begin(), layer.end(), ':') + 1 == parts;
     });
   };
-  if (arguments.has_balls && !any_has(2))
-    throw UsageError(refusal(
-        "--balls", arguments.balls,
-        "only with a layer THICKNESS:SIEVE, where it decides the cut; else its thickness says the number"));
-  if (!arguments.instead_of_sieve.empty() && !any_has(1))
-    throw UsageError(
-        refusal("--layer", arguments.layers.front(),
-                fmt::format("without {}: the curves say the sizes", arguments.instead_of_sieve)));
+  if (arguments.balls.given() && !any_has(2))
+    throw arguments.balls.refused(
+        "only with a layer THICKNESS:SIEVE, where it decides the cut; else its thickness says the number");
+  for (const Option *option : std::initializer_list<const Option *>{&arguments.grading, &arguments.radius_max,
+                                                                    &arguments.radius_min})
+    if (option->given() && !any_has(1))
+      throw arguments.layers.refused(arguments.layers->front(),
+                                     fmt::format("without {}: the curves say the sizes", option->name()));
 }
 
 /// Sets the spots from `--spot`, in the order of the way.
 void judge_spots(const Arguments &arguments, BedRequest &request) {
-  if (!arguments.spots.empty() && request.layers.empty())
-    throw UsageError(refusal("--spot", arguments.spots.front(), "only with --layer"));
-  if (request.layers.size() + arguments.spots.size() > most_layers)
-    throw UsageError(
-        refusal("--spot", arguments.spots.back(), fmt::format("at most {} layers and spots", most_layers)));
+  if (request.layers.size() + arguments.spots->size() > most_layers)
+    throw arguments.spots.refused(arguments.spots->back(),
+                                  fmt::format("at most {} layers and spots", most_layers));
   double from = -0.5 * request.packing.width;
   for (const std::string &text : arguments.spots) {
     const std::size_t colon = text.find(':');
     const double least = 2.0 * request.layers.front().bed.packing.largest_radius();
     const Range way = {from, 0.5 * request.packing.width, "m"};
     const auto refused = [&] {
-      return UsageError(refusal("--spot", text,
-                                fmt::format("FROM:TO, {} from the middle, in the order of the way, each at "
-                                            "least {:g} m long: the largest ball of the lowest layer",
-                                            way.words(), least)));
+      return arguments.spots.refused(
+          text, fmt::format("FROM:TO, {} from the middle, in the order of the way, each at "
+                            "least {:g} m long: the largest ball of the lowest layer",
+                            way.words(), least));
     };
     if (colon == std::string::npos) throw refused();
     Spot spot{};
@@ -309,26 +353,22 @@ BedRequest::Layer only_layer(const BedRequest &request) {
 
 /// Sets the layers from `--layer`.
 void judge_layers(const Arguments &arguments, BedRequest &request) {
-  if (arguments.layers.empty()) {
-    if (!arguments.relative_densities.empty()) request.layers.push_back(only_layer(request));
+  if (!arguments.layers) {
+    if (arguments.relative_densities) request.layers.push_back(only_layer(request));
     return;
   }
-  const std::string &first = arguments.layers.front();
-  if (!arguments.instead_of_layers.empty())
-    throw UsageError(refusal("--layer", first, fmt::format("without {}", arguments.instead_of_layers)));
-  if (arguments.layers.size() > most_layers)
-    throw UsageError(
-        refusal("--layer", arguments.layers[most_layers], fmt::format("at most {} layers", most_layers)));
+  const std::vector<std::string> &layers = *arguments.layers;
+  if (layers.size() > most_layers)
+    throw arguments.layers.refused(layers[most_layers], fmt::format("at most {} layers", most_layers));
   PackingOptions box = request.packing;
-  box.balls = std::max(1, box.balls / static_cast<int>(arguments.layers.size()));
+  box.balls = std::max(1, box.balls / static_cast<int>(layers.size()));
   double balls = 0.0;
-  for (std::size_t n = 0; n < arguments.layers.size(); ++n) {
-    const std::string &layer = arguments.layers[n];
+  for (std::size_t n = 0; n < layers.size(); ++n) {
     request.layers.push_back(asked_layer(arguments, n, box));
     balls += request.layers.back().bed.packing.balls;
     if (balls > PackingOptions::most_balls)
-      throw UsageError(refusal("--layer", layer,
-                               fmt::format("layers of at most {} balls in all", PackingOptions::most_balls)));
+      throw arguments.layers.refused(
+          layers[n], fmt::format("layers of at most {} balls in all", PackingOptions::most_balls));
   }
   judge_effects(arguments);
 }
@@ -357,29 +397,6 @@ void keep_curves(const Arguments &arguments, const fs::path &out) {
   std::vector<GivenPath> outputs = files_in("--out", out.parent_path(), grading_files(out));
   outputs.push_back({"--out", out});
   keep_apart(curves, outputs);
-}
-
-void run(const Arguments &arguments) {
-  BedRequest request;
-  PackingOptions &options = request.packing;
-  options.balls = count_option("--balls", arguments.balls, 1, PackingOptions::most_balls);
-  for (std::size_t i = 0; i < number_options.size(); ++i)
-    options.*number_options[i].value =
-        number_option(number_options[i].option, arguments.numbers[i], number_options[i].range);
-  options.seed = seed_option("--seed", arguments.seed);
-  request.density = number_option("--density", arguments.density, {1e-3, 1e6, "kg/m3"});
-  request.out = output_file_option("--out", arguments.out);
-  keep_curves(arguments, request.out);
-  try {
-    options.grading = grading_from_name(arguments.grading);
-    judge_sieve(arguments, request);
-    judge_layers(arguments, request);
-    judge_spots(arguments, request);
-    pour_layers(arguments, request);
-  } catch (const std::invalid_argument &fault) {
-    throw UsageError(fmt::format("--{}", fault.what()));
-  }
-  write_bed(request);
 }
 
 constexpr const char *asked_curve = "asked for";
@@ -496,8 +513,11 @@ int wanted_balls(const BedRequest &request) {
   return balls;
 }
 
-} // namespace
-
+/// Packs the balls, writes the data file that inputs/bed/in.settle reads, and prints one line about it. With
+/// a grading that was asked for it also prints a table of d10 to d60, C_u and C_c, and draws the grading of
+/// the balls beside the one asked for, each layer in a panel of its own: OUT_grading.csv, .gp, .svg and .png,
+/// where OUT is the file without extension. Throws UsageError for options that no packing fulfils and for a
+/// file that cannot be written.
 void write_bed(const BedRequest &request) {
   const fs::path &out = request.out;
   const fs::path folder = out.has_parent_path() ? out.parent_path() : ".";
@@ -549,78 +569,38 @@ void write_bed(const BedRequest &request) {
              (folder / (figure + ".png")).lexically_normal().string());
 }
 
-void add_bed_command(CLI::App &app, Session &) {
-  const auto arguments = std::make_shared<Arguments>();
-  const BedRequest request;
-  const PackingOptions &defaults = request.packing;
-  arguments->balls = fmt::format("{}", defaults.balls);
-  arguments->density = fmt::format("{:g}", request.density);
-  arguments->seed = fmt::format("{}", defaults.seed);
-  arguments->grading = grading_name(defaults.grading);
-  for (std::size_t i = 0; i < number_options.size(); ++i)
-    arguments->numbers[i] = fmt::format("{}", defaults.*number_options[i].value);
+void run(const Arguments &arguments) {
+  BedRequest request;
+  PackingOptions &options = request.packing;
+  options.balls = *arguments.balls;
+  options.width = *arguments.width;
+  options.depth = *arguments.depth;
+  options.height = *arguments.height;
+  options.radius_min = *arguments.radius_min;
+  options.radius_max = *arguments.radius_max;
+  options.seed = *arguments.seed;
+  request.density = *arguments.density;
+  request.out = *arguments.out;
+  keep_curves(arguments, request.out);
+  try {
+    options.grading = grading_from_name(*arguments.grading);
+    judge_sieve(arguments, request);
+    judge_layers(arguments, request);
+    judge_spots(arguments, request);
+    pour_layers(arguments, request);
+  } catch (const std::invalid_argument &fault) {
+    throw UsageError(fmt::format("--{}", fault.what()));
+  }
+  write_bed(request);
+}
 
-  CLI::App *bed = app.add_subcommand(
-      "bed", "Soil balls at random in a box, none touching another, as the data file that "
-             "inputs/bed/in.settle reads. The same options give the same file on any machine.");
-  text_option(bed, "--balls", "COUNT", arguments->balls, "number of balls");
-  for (std::size_t i = 0; i < number_options.size(); ++i)
-    text_option(bed, number_options[i].option, "NUMBER", arguments->numbers[i], number_options[i].help);
-  text_option(bed, "--density", "NUMBER", arguments->density,
-              "density of a ball [kg/m3]; of a disc, 1 m thick");
-  text_option(
-      bed, "--grading", "NAME", arguments->grading,
-      "uniform: every radius as often as any other; mass: the same mass in equal intervals of radius");
-  text_option(
-      bed, "--sieve", "FILE", arguments->sieve,
-      fmt::format("grading instead of radii: a table of the laboratory with the columns size (mm) and "
-                  "passing (%) or retained (%) by mass, one of {}, or the smallest and the largest size, as "
-                  "32-48 [mm]",
-                  grading_names()));
-  text_option(bed, "--cut", "NUMBER", arguments->cut,
-              "smallest size of a ball with --sieve [mm]; default: so that the balls fill the box to "
-              "--height, or to half its width");
-  bed->add_option(
-         "--layer", arguments->layers,
-         "a layer of the bed, the lowest first; several form a bed of layers with contacts of their own: its "
-         "thickness when it has settled [m], a curve as of --sieve (else radii as of --radius-min, "
-         "--radius-max, --grading), and the smallest size of its balls [mm] (else so that the layer has its "
-         "share of --balls, the same for each); --balls then counts for curves without CUT only")
-      ->type_name("THICKNESS[:SIEVE[:CUT]]");
-  bed->add_option(
-         "--spot", arguments->spots,
-         "a part of the lowest layer, along the way, with contacts of its own, such as a soft spot; may "
-         "be given several times, in the order of the way; x is 0 in the middle [m]")
-      ->type_name("FROM:TO");
-  bed->add_option("--relative-density", arguments->relative_densities,
-                  "of a layer, or of the whole bed, from 0, the loosest packing of its mix, to 1, the "
-                  "densest; once, or once for each "
-                  "--layer: in.settle then pours the layer with the friction that gives it")
-      ->type_name("NUMBER");
-  bed->add_option(
-         "--packings", arguments->packings,
-         "table of the loosest and the densest packing of the layer's mix and those between: density.csv of "
-         "inputs/soil/in.density, or OUT_packings.csv of an earlier call; once, or once for each --layer; "
-         "default: the stored ones of case gravel for its radii and friction, else a table beside --out, "
-         "which LIGGGHTS makes once, in some minutes")
-      ->type_name("FILE");
-  bed->add_option("--friction", arguments->friction,
-                  "of the soil once it lies, for --relative-density; default: that of case base, 0.8")
-      ->type_name("NUMBER");
-  bed->add_option("--rolling", arguments->rolling,
-                  "rolling friction of the soil once it lies, for --relative-density; default: that of case "
-                  "base, 0.45")
-      ->type_name("NUMBER");
-  text_option(bed, "--seed", "COUNT", arguments->seed, "of the random numbers");
-  text_option(bed, "--out", "FILE", arguments->out, "the data file; its folder is made if missing");
-  bed->callback([arguments, bed] {
-    arguments->has_balls = bed->count("--balls") > 0;
-    for (const char *option : {"--radius-min", "--radius-max", "--grading"})
-      if (bed->count(option) > 0) arguments->instead_of_sieve = option;
-    for (const char *option : {"--sieve", "--cut", "--height"})
-      if (bed->count(option) > 0) arguments->instead_of_layers = option;
-    run(*arguments);
-  });
+} // namespace
+
+void add_bed_command(CLI::App &app, Session &session) {
+  add_command(app, session, "bed",
+              "Soil balls at random in a box, none touching another, as the data file that "
+              "inputs/bed/in.settle reads. The same options give the same file on any machine.",
+              run);
 }
 
 } // namespace drumlin::post

@@ -5,7 +5,6 @@
 #include "calibration/soil_tests.h"
 #include "calibration/task.h"
 #include "commands/roller_options.h"
-#include "commands/text_options.h"
 #include "engine/places.h"
 #include "experiment/study.h"
 #include "support/csv.h"
@@ -14,7 +13,6 @@
 #include "support/progress.h"
 #include "support/text.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -22,7 +20,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -40,18 +37,46 @@ namespace {
 
 constexpr double gravity = 9.81; // m/s2, of in.bed
 
-struct Arguments {
-  std::vector<std::string> targets, vary, fixed;
-  RollerArguments roller;
-  std::string seeds = "5";
-  std::string balls = "1000";
-  std::string cycles = "6";
-  std::string evaluations = "40";
-  std::string jobs = "1";
-  std::string target_beds = "0";
-  std::string name = "calibrated";
-  std::string out = "results/calibration";
-  bool fresh = false;
+/// "NAME, MEANING; NAME, MEANING"
+template <class Table>
+std::string meanings(const Table &table) {
+  std::string text;
+  for (const auto &row : table)
+    text += fmt::format("{}{}, {}", text.empty() ? "" : "; ", row.name, row.meaning);
+  return text;
+}
+
+struct Arguments : Options {
+  using Options::Options;
+  Texts targets = texts(
+      "--target", "TARGET",
+      "NAME=VALUE or NAME=VALUE:TOLERANCE, once for each target; the tolerance is relative, 0.05 if not "
+      "given. " +
+          meanings(soil_quantities));
+  Texts vary =
+      texts("--vary", "RANGE",
+            "NAME=LOW:HIGH, once for each parameter, no more than targets. " + meanings(soil_parameters));
+  Texts fixed = texts(
+      "--set", "SETTING",
+      "NAME=VALUE, another value than case gravel has: of these parameters, or of the roller's variables "
+      "m2, m3, r2, r3, k23, c23, omega or frequency [Hz], Fw; m2, m3, k23, c23, Fw per metre of the drum's "
+      "width");
+  RollerArguments roller{command(), "The roller, instead of that of case gravel"};
+  Count seeds = count("--seeds", 2, 1000, "beds at each point, 2 or more", "5");
+  Count balls = count("--balls", 50, 1'000'000,
+                      "soil balls of a bed; its width grows with their square root, 2 m for 2500", "1000");
+  Count cycles = count("--cycles", 4, 1'000'000,
+                       "cycles of the excitation, of which the second half counts for all but k and D", "6");
+  Count evaluations =
+      count("--evaluations", 1, 100'000,
+            "points of the search; two for each parameter and one more are made in addition", "40");
+  Count target_beds = count(
+      "--target-beds", 0, 1'000'000,
+      "beds of which the targets are means, whose scatter then widens the intervals; 0: they are exact", "0");
+  Count jobs = count("--jobs", 1, 100'000, "runs at the same time, one processor each", "1");
+  Text name = text("--name", "NAME", "NAME of the file case.NAME", "calibrated");
+  ResultPath out = result_folder("--out", "folder of the results", "results/calibration");
+  Flag fresh = flag("--fresh", "forget the evaluations of an earlier call");
 };
 
 /// Gives the roller to the bed, per metre of the drum's width; what --set gives counts more.
@@ -88,18 +113,16 @@ CalibrationTask judged_task(const Arguments &arguments, const std::optional<Give
     task.fixed.push_back(fixed_from_text(text));
   if (roller) set_roller(*roller, task);
   task.check();
-  constexpr int most_seeds = 1000, least_balls = 50, least_cycles = 4, most = 1000000;
-  task.seeds = count_option("--seeds", arguments.seeds, 2, most_seeds);
-  task.balls = count_option("--balls", arguments.balls, least_balls, most);
-  task.cycles = count_option("--cycles", arguments.cycles, least_cycles, most);
-  task.target_beds = count_option("--target-beds", arguments.target_beds, 0, most);
+  task.seeds = *arguments.seeds;
+  task.balls = *arguments.balls;
+  task.cycles = *arguments.cycles;
+  task.target_beds = *arguments.target_beds;
   if (const std::optional<std::string> r2 = task.fixed_value("r2")) {
     const double diameter = 2.0 * number_from_text(*r2), width = packing_of(task).width;
     if (!(diameter < width))
-      throw UsageError(refusal(
-          "--balls", arguments.balls,
+      throw arguments.balls.refused(
           fmt::format("at least {:.0f}: the drum has a diameter of {:g} m, the box a width of {:.3g} m",
-                      std::ceil(task.balls * diameter * diameter / (width * width)) + 1.0, diameter, width)));
+                      std::ceil(task.balls * diameter * diameter / (width * width)) + 1.0, diameter, width));
   }
   return task;
 }
@@ -175,21 +198,20 @@ std::vector<LumpedComparison> compared_records(const CalibrationTask &task, cons
   return compared;
 }
 
-void run(const Arguments &arguments, const std::string &command) {
-  constexpr int most = 100000;
+void run(const Arguments &arguments) {
   std::optional<GivenRoller> roller = judged(arguments.roller);
   const CalibrationTask task = judged_task(arguments, roller);
   CalibrationEffort effort;
-  effort.evaluations = count_option("--evaluations", arguments.evaluations, 1, most);
-  effort.jobs = count_option("--jobs", arguments.jobs, 1, most);
-  const std::string name = judged_name(arguments.name);
-  const fs::path out = output_folder_option("--out", arguments.out);
+  effort.evaluations = *arguments.evaluations;
+  effort.jobs = *arguments.jobs;
+  const std::string name = judged_name(*arguments.name);
+  const fs::path &out = *arguments.out;
   keep_apart(files_of(arguments.roller), {{"--out", out, true}});
   check_engine_path(out);
   effort.at_once = arguments.fresh ? std::max(1, effort.jobs / task.seeds)
                                    : points_at_once(out / settings_name, effort.jobs, task.seeds);
   const ResumedFolder folder(out, "calibration", settings_text(task, roller, effort.at_once),
-                             arguments.fresh);
+                             arguments.fresh.given());
 
   if (roller)
     for (const std::string &line : roller->lines(gravity))
@@ -221,7 +243,7 @@ void run(const Arguments &arguments, const std::string &command) {
                 "parameters that the targets identify; the page says why they do not, and no case "
                 "file is written"));
   }
-  std::vector<std::string> heading = {"A bed calibrated by", "", "  " + command, ""};
+  std::vector<std::string> heading = {"A bed calibrated by", "", "  " + arguments.session().command, ""};
   heading.insert(heading.end(), answer.begin(), answer.end());
   fs::remove(case_file); // of an earlier call, in case that there is none of this one
   write_files({{case_file, case_text(task, found_point(task, found), heading)}});
@@ -231,53 +253,15 @@ void run(const Arguments &arguments, const std::string &command) {
 } // namespace
 
 void add_calibrate_command(CLI::App &app, Session &session) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App *calibrate = app.add_subcommand(
-      "calibrate",
+  add_command(
+      app, session, "calibrate",
       "Parameters of a bed's contacts with which it meets targets: stiffness and damping that a roller "
       "feels, settlement, plate modulus, friction angle. Runs the decks on beds of several seeds, and writes "
       "a page, evaluations.csv and a file case.NAME for the decks. An interrupted calibration continues "
-      "where it was interrupted.");
-  std::string quantities, parameters;
-  for (const SoilQuantity &quantity : soil_quantities)
-    quantities += fmt::format("{}{}, {}", quantities.empty() ? "" : "; ", quantity.name, quantity.meaning);
-  for (const SoilParameter &parameter : soil_parameters)
-    parameters += fmt::format("{}{}, {}", parameters.empty() ? "" : "; ", parameter.name, parameter.meaning);
-  const auto list = [&](const char *option, std::vector<std::string> Arguments::*texts,
-                        const std::string &help, const char *type) {
-    calibrate->add_option(option, (*arguments).*texts, help)->type_name(type)->expected(1)->take_all();
-  };
-  list("--target", &Arguments::targets,
-       "NAME=VALUE or NAME=VALUE:TOLERANCE, once for each target; the tolerance is relative, 0.05 if not "
-       "given. " +
-           quantities,
-       "TARGET");
-  list("--vary", &Arguments::vary,
-       "NAME=LOW:HIGH, once for each parameter, no more than targets. " + parameters, "RANGE");
-  list("--set", &Arguments::fixed,
-       "NAME=VALUE, another value than case gravel has: of these parameters, or of the roller's variables "
-       "m2, m3, r2, r3, k23, c23, omega or frequency [Hz], Fw; m2, m3, k23, c23, Fw per metre of the drum's "
-       "width",
-       "SETTING");
-  add_roller_options(*calibrate, arguments->roller, "The roller, instead of that of case gravel");
-  text_option(calibrate, "--seeds", "COUNT", arguments->seeds, "beds at each point, 2 or more");
-  text_option(calibrate, "--balls", "COUNT", arguments->balls,
-              "soil balls of a bed; its width grows with their square root, 2 m for 2500");
-  text_option(calibrate, "--cycles", "COUNT", arguments->cycles,
-              "cycles of the excitation, of which the second half counts for all but k and D");
-  text_option(calibrate, "--evaluations", "COUNT", arguments->evaluations,
-              "points of the search; two for each parameter and one more are made in addition");
-  text_option(
-      calibrate, "--target-beds", "COUNT", arguments->target_beds,
-      "beds of which the targets are means, whose scatter then widens the intervals; 0: they are exact");
-  text_option(calibrate, "--jobs", "COUNT", arguments->jobs, "runs at the same time, one processor each");
-  text_option(calibrate, "--name", "NAME", arguments->name, "NAME of the file case.NAME");
-  text_option(calibrate, "--out", "DIR", arguments->out, "folder of the results");
-  calibrate->add_flag("--fresh", arguments->fresh, "forget the evaluations of an earlier call");
-  calibrate->footer(
+      "where it was interrupted.",
+      run,
       "Example:\n"
       "  drumlin calibrate --target k=20e6 --target D=0.2 --vary k=1e8:2e9 --vary D=0.05:0.8 --jobs 2\n");
-  calibrate->callback([arguments, &session] { run(*arguments, session.command); });
 }
 
 } // namespace drumlin::post

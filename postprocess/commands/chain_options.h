@@ -5,25 +5,45 @@
 #include "chain/parameters.h"
 #include "commands/roller_options.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
-#include <utility>
-
-namespace CLI {
-class App;
-}
 
 namespace drumlin::post {
 
-/// The options as given. Numbers stay text until judged() checks them.
-struct ChainArguments {
-  std::string chain_case = "II";
-  std::string transition = "B";
-  RollerArguments roller; ///< all values but k, D and g
-  std::array<std::optional<std::string>, 9>
-      numbers;                          ///< as in chain_numbers; none: the roller's or the case's
-  std::optional<std::string> frequency; ///< in place of omega
+/// The numbers of the chain; not given: the roller's or the case's.
+struct ChainNumberArguments : Options {
+  explicit ChainNumberArguments(Command &of);
+  /// As in chain_numbers, and --frequency in place of --omega.
+  std::array<Number, 10> all = {
+      of_chain(0), of_chain(1),
+      of_chain(2), number("--frequency", {1e-6, 1e8, "Hz"}, "the same in Hz, instead"),
+      of_chain(3), of_chain(4),
+      of_chain(5), of_chain(6),
+      of_chain(7), of_chain(8)};
+
+private:
+  Number of_chain(std::size_t number_of_chain) const;
+};
+
+struct ChainArguments : Options {
+  using Options::Options;
+  static constexpr const char *group = "Instead of the case's values";
+  Text chain_case = text("--case", "TEXT",
+                         fmt::format("case of the paper's Table 1, with --roller of its soil alone: {}",
+                                     fmt::join(table1_cases, ", ")),
+                         "II");
+  Text transition = text("--transition", "TEXT", "transition condition of the contact: A or B", "B");
+  RollerArguments roller{command(), group}; ///< all values but k, D and g
+  ChainNumberArguments numbers{command()};
+
+  /// The option that was given for one of chain_numbers: of omega, --omega or --frequency; none if neither
+  /// was.
+  const Number *given(const std::string &name) const;
 };
 
 /// The chain that was asked for.
@@ -33,14 +53,6 @@ struct AskedChain {
   /// With the values that single options put in place of its own.
   std::optional<GivenRoller> roller;
 };
-
-/// Adds --case, --transition, --roller, --k and so on; `arguments` must outlive the app.
-void add_chain_options(CLI::App &command, ChainArguments &arguments);
-
-/// The option that was given for one of chain_numbers, and its text: --omega or --frequency; none if neither
-/// was.
-std::optional<std::pair<std::string, std::string>> given_number(const ChainArguments &arguments,
-                                                                const std::string &name);
 
 /// What is wrong with the frequency [rad/s] of the excitation, said of the option that a user gave it with.
 std::string frequency_refusal(const ChainArguments &arguments, double omega, const std::string &allowed);

@@ -3,7 +3,19 @@
 
 #include "support/usage_error.h"
 
+#include <string>
+#include <vector>
+
 namespace drumlin::post {
+
+/// Whether there is such a subcommand.
+bool is_subcommand(const std::string &name);
+
+/// The command line as one text; `words` are those behind `drumlin`.
+std::string command_line(const std::vector<std::string> &words);
+
+/// Carries a command line out. Throws CLI::ParseError if it is none, else what its subcommand throws.
+void call(std::vector<std::string> words);
 
 /// `advise`: the steps per cycle that a chain needs for an error.
 void add_advise_command(CLI::App &app, Session &session);

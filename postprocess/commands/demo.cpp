@@ -1,22 +1,16 @@
 #include "commands/commands.h"
 
-#include "bed/relative_density.h"
-#include "commands/bed.h"
-#include "commands/map.h"
-#include "commands/passes.h"
-#include "commands/report.h"
-#include "commands/text_options.h"
-#include "commands/vtk.h"
+#include "bed/packing.h"
+#include "commands/command.h"
 #include "engine/engine_command.h"
 #include "engine/engine_run.h"
 #include "engine/places.h"
-#include "experiment/study.h"
-#include "map/meter_study.h"
+#include "support/csv.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/process.h"
 
-#include <CLI/CLI.hpp>
+#include <boost/algorithm/string/split.hpp>
 #include <fmt/format.h>
 
 #include <unistd.h>
@@ -29,9 +23,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <future>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -47,7 +39,6 @@ namespace {
 /// Cycles of a run of the chain: enough for the steady state, which the report judges by reference values.
 constexpr int chain_cycles = 120;
 constexpr int bed_cycles = 10, bed_balls = 1800;
-constexpr int most_cycles = 10'000'000;
 /// Fewer balls would not keep the drum from the floor.
 constexpr int least_balls = 300;
 /// The narrowest box, m: the drum is 0.7 m wide.
@@ -55,33 +46,134 @@ constexpr double least_width = 1.0;
 
 constexpr const char *results_folder = "results/demo";
 constexpr const char *page_folder = "report";
+constexpr const char *commands_name = "commands.sh";
 
-struct Arguments {
-  std::optional<std::string> cycles, balls;
+struct Arguments : Options {
+  using Options::Options;
+  Count cycles =
+      count("--cycles", 1, 10'000'000,
+            fmt::format("cycles of each run of chain and bed; {} and {} if not given. Below 100 the report "
+                        "does not judge the chain by reference values",
+                        chain_cycles, bed_cycles));
+  Count balls = count(
+      "--balls", least_balls, PackingOptions::most_balls,
+      fmt::format("soil balls of the bed, {} or more; {} if not given. The box gets narrower with fewer",
+                  least_balls, bed_balls));
 };
 
-struct Plan {
-  int chain_cycles = post::chain_cycles;
-  int bed_cycles = post::bed_cycles;
-  bool quick = false; ///< few points of what needs no engine
-  bool drives = true; ///< a roller that drives over a loose lift
-  BedRequest bed;
+enum class Kind {
+  tool,
+  run,               ///< of an engine
+  run_with_progress, ///< the engine's own lines of progress are printed
+  run_beside,        ///< on a second core, one after another, beside the steps below them
+  tool_of_beside     ///< waits for the runs beside
 };
 
-Plan plan_of(const Arguments &arguments) {
-  Plan plan;
-  plan.quick = arguments.cycles.has_value();
-  plan.drives = !arguments.cycles && !arguments.balls;
-  if (arguments.cycles)
-    plan.chain_cycles = plan.bed_cycles = count_option("--cycles", *arguments.cycles, 1, most_cycles);
-  PackingOptions &packing = plan.bed.packing;
-  const int of_usual_width = packing.balls;
-  packing.balls = bed_balls;
-  if (arguments.balls)
-    packing.balls = count_option("--balls", *arguments.balls, least_balls, PackingOptions::most_balls);
-  packing.width =
-      std::max(least_width, packing.width * std::sqrt(static_cast<double>(packing.balls) / of_usual_width));
-  return plan;
+/// A step of the demo: a command that a user can type.
+struct Step {
+  std::string name;    ///< empty: the command tells of itself
+  std::string command; ///< behind `drumlin`
+  Kind kind = Kind::tool;
+  std::string printed = {}; ///< folder of what the engine of a run prints
+};
+
+/// All steps, in their order, as a user would type them.
+std::vector<Step> steps_of(const Arguments &arguments, bool with_lammps) {
+  const bool few_cycles = arguments.cycles.given(), drives = !few_cycles && !arguments.balls;
+  const PackingOptions usual;
+  const int balls = arguments.balls.value_or(bed_balls);
+  const double width =
+      std::max(least_width, usual.width * std::sqrt(static_cast<double>(balls) / usual.balls));
+  std::vector<Step> steps;
+  // {t} is a transition, {c} a case; the other names stand for what the demo's options change.
+  const auto add = [&](Kind kind, const std::string &name, const std::string &command,
+                       const std::string &printed = "", const char *t = "", const char *c = "") {
+    const auto filled = [&](const std::string &text) {
+      return fmt::format(fmt::runtime(text), fmt::arg("t", t), fmt::arg("c", c), //
+                         fmt::arg("in", inputs_here().string()), fmt::arg("out", results_folder),
+                         fmt::arg("cycles", arguments.cycles.value_or(chain_cycles)),
+                         fmt::arg("bed_cycles", arguments.cycles.value_or(bed_cycles)),
+                         fmt::arg("balls", balls), fmt::arg("width", number_text(width)),
+                         fmt::arg("k_count", few_cycles ? 8 : 40), fmt::arg("D_count", few_cycles ? 5 : 25),
+                         fmt::arg("quick", few_cycles ? " --quick" : ""), fmt::arg("page", page_folder));
+    };
+    steps.push_back({filled(name), filled(command), kind, filled(printed)});
+  };
+
+  // The single impact and the four cases of the paper.
+  for (const char *t : {"A", "B"}) {
+    add(Kind::run, "impact, {t}", "run {in}/chain/in.impact -var out {out}/impact/{t} -var transition {t}",
+        "{out}/impact/{t}", t);
+    for (const char *c : {"I", "II", "III", "IV"}) {
+      add(Kind::run, "chain, case {c}, {t}",
+          "run {in}/chain/in.chain -var out {out}/chain/{c}-{t} -var case {c} -var transition {t} "
+          "-var cycles {cycles}",
+          "{out}/chain/{c}-{t}", t, c);
+      if (with_lammps)
+        add(Kind::run, "in LAMMPS",
+            "run {in}/chain/in.chain.lammps -var out {out}/lammps/{c}-{t} -var case {c} -var transition {t} "
+            "-var cycles {cycles}",
+            "{out}/lammps/{c}-{t}", t, c);
+    }
+  }
+  // A roller that drives over a loose lift, tipped moist, on dense soil, of grains 1.5 times as large as
+  // those of case gravel. It takes minutes.
+  if (drives) {
+    add(Kind::tool, "",
+        "bed --width 4.4 --radius-min 0.024 --radius-max 0.036 --layer 0.4 0.3 --relative-density 0.9 0.1 "
+        "--out {out}/drive/balls.data");
+    add(Kind::run_beside, "loose lift comes to rest",
+        "run {in}/bed/in.settle -var balls {out}/drive/balls.data -var bed {out}/drive/soil.restart "
+        "-var pour_tensile_strength 2e4",
+        "{out}/drive/made/soil");
+    add(Kind::run_beside, "roller comes to rest on it",
+        "run {in}/bed/in.place -var bed {out}/drive/soil.restart -var start {out}/drive/roller.restart "
+        "-var roller {in}/rollers/Axas2020 -var place -1.2 -var ratio 0.1",
+        "{out}/drive/made/roller");
+    add(Kind::run_beside, "roller drives",
+        "run {in}/bed/in.drive -var start {out}/drive/roller.restart -var out {out}/drive/B "
+        "-var roller {in}/rollers/Axas2020 -var balance 1 -var dumps_per_pass 25",
+        "{out}/drive/B");
+  }
+  add(Kind::tool, "first pages of the report", "report {out}/impact {out}/chain --out {page}");
+  // A bed of balls placed at random: it settles, the roller settles on it, and vibrates.
+  add(Kind::tool, "", "bed --balls {balls} --width {width} --out {out}/bed/balls.data");
+  add(Kind::run_with_progress, "bed comes to rest",
+      "run {in}/bed/in.settle -var balls {out}/bed/balls.data -var bed {out}/bed/soil.restart",
+      "{out}/bed/made/soil");
+  add(Kind::run_with_progress, "roller comes to rest",
+      "run {in}/bed/in.place -var bed {out}/bed/soil.restart -var start {out}/bed/roller.restart",
+      "{out}/bed/made/roller");
+  for (const char *t : {"A", "B"}) {
+    add(Kind::run_with_progress, "bed, {bed_cycles} cycles, {t}",
+        "run {in}/bed/in.bed -var start {out}/bed/roller.restart -var out {out}/bed/{t} -var transition {t} "
+        "-var cycles {bed_cycles} -var dumps_per_cycle 10",
+        "{out}/bed/{t}", t);
+    add(Kind::tool, "", "vtk {out}/bed/{t}", "", t);
+  }
+  // The regimes of the paper's roller over stiffness and damping of the soil, and what its meter says.
+  add(Kind::tool, "regimes of the roller",
+      "map --x k:2e6:150e6:{k_count} --y D:0.02:0.6:{D_count} --out {out}/map");
+  add(Kind::tool, "what the meter says of the soil", "study meter{quick} --out {out}/meter");
+  if (drives) add(Kind::tool_of_beside, "roller over a lift", "passes {out}/drive/B");
+  add(Kind::tool, "report", "report {out} --out {page}");
+  return steps;
+}
+
+std::vector<std::string> words_of(const std::string &command) {
+  std::vector<std::string> words;
+  boost::split(words, command, [](char letter) { return letter == ' '; });
+  return words;
+}
+
+/// The commands as a script that a user can read, and run.
+std::string script_of(const std::vector<Step> &steps) {
+  std::string text = "# What the demo has run.\n";
+  for (const Step &step : steps) {
+    if (!step.name.empty()) text += fmt::format("\n# {}\n", step.name);
+    text += fmt::format("{} {}\n", front_command(), step.command);
+  }
+  return text;
 }
 
 /// Prints without delay. Throws std::runtime_error if the output cannot be written.
@@ -92,211 +184,59 @@ void print(const std::string &text) {
                                           : "standard output cannot be written; allowed: one that can");
 }
 
-/// One run of an engine.
-struct DemoRun {
-  std::string name;
-  fs::path out; ///< folder of what the engine prints
-  fs::path deck;
-  Variables variables;
-  bool shows_progress = false; ///< the engine's own lines of progress are printed
-};
-
 class FailedRun : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The demo: steps that are planned first, so that each can tell how many there are.
 class Demo {
 public:
-  Demo(Plan plan, fs::path decks, bool with_lammps)
-      : plan_(std::move(plan)), decks_(std::move(decks)), with_lammps_(with_lammps) {}
+  explicit Demo(std::vector<Step> steps) : steps_(std::move(steps)) {}
   Demo(const Demo &) = delete;
   Demo &operator=(const Demo &) = delete;
   ~Demo() { left_ = true; }
 
   void run() {
-    fs::create_directories(results_);
-    const FolderLock lock = lock_output_folder(results_, "the folder of results");
-    for (const fs::directory_entry &entry : fs::directory_iterator(results_))
-      fs::remove_all(entry.path());
-    for (const char *transition : {"A", "B"}) {
-      plan_impact(transition);
-      for (const char *chain_case : {"I", "II", "III", "IV"})
-        plan_chain(chain_case, transition);
-    }
-    if (plan_.drives) plan_drive();
-    step("first pages of the report\n", [this] {
-      print_report({{(results_ / "impact").string(), (results_ / "chain").string()}, page_folder});
-    });
-    plan_settling();
-    for (const char *transition : {"A", "B"})
-      plan_bed_run(transition);
-    step("regimes of the roller\n", [this] { map_regimes(); });
-    step("what the meter says of the soil\n", [this] { study_meter(); });
-    if (plan_.drives) step(fmt::format("{:<22}", "roller over a lift"), [this] { wait_for_drive(); });
-    step("report\n", [] { print_report({{results_folder}, page_folder}); });
-    print(fmt::format("Single impacts, the four cases of the paper, a bed of {} balls{}: {} steps, {}. Pages "
-                      "of the chain can be opened when the first are made.\n",
-                      plan_.bed.packing.balls, plan_.drives ? " and a roller that drives" : "", steps_.size(),
-                      plan_.drives ? "some four minutes on two cores" : "a minute or less for short runs"));
     for (std::size_t i = 0; i < steps_.size(); ++i) {
-      print(fmt::format("[{:2}/{:2}] {}", i + 1, steps_.size(), steps_[i].words));
-      steps_[i].make();
+      const Step &step = steps_[i];
+      print(fmt::format("[{:2}/{:2}] ", i + 1, steps_.size()));
+      switch (step.kind) {
+      case Kind::tool:
+        if (!step.name.empty()) print(step.name + "\n");
+        call(words_of(step.command));
+        break;
+      case Kind::run:
+      case Kind::run_with_progress:
+        print(fmt::format("{:<22}{}", step.name, step.kind == Kind::run ? "" : "\n"));
+        told([&] { print(fmt::format(" {:5.1f} s\n", run_engine(step))); });
+        break;
+      case Kind::run_beside:
+        print(fmt::format("{}, beside the steps below\n", step.name));
+        if (!beside_.valid())
+          beside_ = std::async(std::launch::async, [this, i] {
+            for (std::size_t n = i; steps_[n].kind == Kind::run_beside; ++n)
+              run_engine(steps_[n]);
+          });
+        break;
+      case Kind::tool_of_beside:
+        print(fmt::format("{:<22}", step.name));
+        const auto begin = std::chrono::steady_clock::now();
+        told([this] { beside_.get(); });
+        print(fmt::format(" {:5.1f} s after the other runs\n", seconds_since(begin)));
+        call(words_of(step.command));
+      }
     }
-    print(fmt::format("The report: {}\n", (fs::current_path() / page_folder / "index.html").string()));
-    print(fmt::format("The bed, for ParaView: {} and {}, the .pvd files\n", (bed_ / "A/vtk").string(),
-                      (bed_ / "B/vtk").string()));
   }
 
 private:
-  struct Step {
-    std::string words; ///< that are printed before it
-    std::function<void()> make;
-  };
-
-  void step(std::string words, std::function<void()> make) {
-    steps_.push_back({std::move(words), std::move(make)});
+  static double seconds_since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
-  void engine_step(
-      const DemoRun &run, const std::function<void()> &then = [] {}) {
-    step(fmt::format("{:<22}{}", run.name, run.shows_progress ? "\n" : ""), [this, run, then] {
-      engine_run(run);
-      then();
-    });
-  }
-
-  void plan_impact(const std::string &transition) {
-    const fs::path out = results_ / "impact" / transition;
-    engine_step({"impact, " + transition,
-                 out,
-                 decks_ / "chain/in.impact",
-                 {{"out", out.string()}, {"transition", transition}}});
-  }
-
-  void plan_chain(const std::string &chain_case, const std::string &transition) {
-    const std::string folder = chain_case + "-" + transition;
-    const auto variables = [&](const fs::path &out) {
-      return Variables{{"out", out.string()},
-                       {"case", chain_case},
-                       {"transition", transition},
-                       {"cycles", std::to_string(plan_.chain_cycles)}};
-    };
-    fs::path out = results_ / "chain" / folder;
-    engine_step({fmt::format("chain, case {}, {}", chain_case, transition), out, decks_ / "chain/in.chain",
-                 variables(out)});
-    if (!with_lammps_) return;
-    out = results_ / "lammps" / folder;
-    engine_step({"in LAMMPS", out, decks_ / "chain/in.chain.lammps", variables(out)});
-  }
-
-  /// Makes a bed of balls placed at random, lets it settle, and lets the roller settle on it.
-  void plan_settling() {
-    plan_.bed.out = bed_ / "balls.data";
-    step("", [this] { write_bed(plan_.bed); });
-    const std::string soil = (bed_ / "soil.restart").string();
-    engine_step({"bed comes to rest",
-                 bed_ / "made/soil",
-                 decks_ / "bed/in.settle",
-                 {{"balls", plan_.bed.out.string()}, {"bed", soil}},
-                 true});
-    engine_step({"roller comes to rest",
-                 bed_ / "made/roller",
-                 decks_ / "bed/in.place",
-                 {{"bed", soil}, {"start", start_.string()}},
-                 true});
-  }
-
-  void plan_bed_run(const std::string &transition) {
-    const fs::path out = bed_ / transition;
-    Variables variables = {{"start", start_.string()}, {"out", out.string()}, {"transition", transition}};
-    if (plan_.bed_cycles != bed_cycles) variables.emplace_back("cycles", std::to_string(plan_.bed_cycles));
-    variables.emplace_back("dumps_per_cycle", "10");
-    const std::string cycles = plan_.bed_cycles == bed_cycles ? "ten" : std::to_string(plan_.bed_cycles);
-    engine_step(
-        {fmt::format("bed, {} cycles, {}", cycles, transition), out, decks_ / "bed/in.bed", variables, true},
-        [out] {
-          write_vtk_series({out.string(), {}, {}});
-        });
-  }
-
-  /// The regimes of the paper's roller over stiffness and damping of the soil.
-  void map_regimes() {
-    MapArguments map;
-    map.x = plan_.quick ? "k:2e6:150e6:8" : "k:2e6:150e6:40";
-    map.y = plan_.quick ? "D:0.02:0.6:5" : "D:0.02:0.6:25";
-    map.out = (results_ / "map").string();
-    print_map(map);
-  }
-
-  /// A roller that drives over a loose lift, tipped moist, on dense soil. The runs take minutes: they go on
-  /// on a second core beside the bed's, and the last step waits for them.
-  void plan_drive() {
-    step("", [this] {
-      BedRequest bed;
-      bed.out = lift_ / "balls.data";
-      bed.packing.width = 4.4;
-      bed.packing.radius_min = 0.024; // 1.5 times those of the gravel, whose packings are of any scale
-      bed.packing.radius_max = 0.036;
-      const MeasuredPackings packings = read_packings(decks_ / "bed/packings.gravel.csv");
-      for (const auto &[thickness, relative_density] : {std::pair{0.4, 0.9}, std::pair{0.3, 0.1}}) {
-        BedLayer layer{bed.packing, thickness, packings.pouring(relative_density)};
-        layer.packing.balls = balls_of(layer);
-        bed.layers.push_back({layer, {}});
-      }
-      write_bed(bed);
-      drive_ = std::async(std::launch::async, [this] { drive_over_lift(); });
-    });
-  }
-
-  void drive_over_lift() {
-    const std::string soil = (lift_ / "soil.restart").string(), start = (lift_ / "roller.restart").string(),
-                      roller = (decks_ / "rollers/Axas2020").string();
-    run_engine(
-        {"loose lift comes to rest",
-         lift_ / "made/soil",
-         decks_ / "bed/in.settle",
-         {{"balls", (lift_ / "balls.data").string()}, {"bed", soil}, {"pour_tensile_strength", "2e4"}}});
-    run_engine({"roller comes to rest on it",
-                lift_ / "made/roller",
-                decks_ / "bed/in.place",
-                {{"bed", soil}, {"start", start}, {"roller", roller}, {"place", "-1.2"}, {"ratio", "0.1"}}});
-    run_engine({"roller drives",
-                lift_ / "B",
-                decks_ / "bed/in.drive",
-                {{"start", start},
-                 {"out", (lift_ / "B").string()},
-                 {"roller", roller},
-                 {"balance", "1"},
-                 {"dumps_per_pass", "25"}}});
-  }
-
-  void wait_for_drive() {
-    const auto begin = std::chrono::steady_clock::now();
+  /// Ends the line of a step that fails.
+  template <class Work>
+  static void told(const Work &work) {
     try {
-      drive_.get();
-    } catch (const FailedRun &) {
-      print(" failed\n");
-      throw;
-    }
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-    print(fmt::format(" {:5.1f} s after the other runs\n", time.count()));
-    PassesArguments passes;
-    passes.folders = {(lift_ / "B").string()};
-    print_passes(passes);
-  }
-
-  void study_meter() {
-    StudyOptions study;
-    study.out = results_ / "meter";
-    study.quick = plan_.quick;
-    const ResumedFolder folder = open_study(study);
-    run_meter_study(study.out, study.quick);
-  }
-
-  void engine_run(const DemoRun &run) const {
-    try {
-      print(fmt::format(" {:5.1f} s\n", run_engine(run)));
+      work();
     } catch (const FailedRun &) {
       print(" failed\n");
       throw;
@@ -304,19 +244,21 @@ private:
   }
 
   /// Its wall time, s. Throws FailedRun. Thread-safe.
-  double run_engine(const DemoRun &run) const {
-    fs::create_directories(run.out);
-    std::vector<std::string> words = {"-log", (run.out / "log.liggghts").string()};
-    for (const auto &[name, value] : run.variables)
-      words.insert(words.end(), {"-var", name, value});
-    const EngineCommand command = engine_command(run.deck, words, 1);
+  double run_engine(const Step &step) const {
+    const fs::path out = step.printed;
+    fs::create_directories(out);
+    std::vector<std::string> words = words_of(step.command); // run DECK -var ...
+    const fs::path deck = words[1];
+    words[0] = "-log";
+    words[1] = (out / "log.liggghts").string();
+    const EngineCommand command = engine_command(deck, words, 1);
     Program program;
     program.words = command.words;
     program.environment = command.environment;
-    program.output = run.out / program_output_file;
+    program.output = out / program_output_file;
     program.own_group = false; // so that Ctrl-C ends it, too
     program.stop_when = [this](pid_t) { return left_.load(); };
-    if (run.shows_progress)
+    if (step.kind == Kind::run_with_progress)
       program.line = [](const std::string &line) {
         for (const char *start : {"drumlin/run:", "drumlin/settle:"})
           if (line.rfind(start, 0) == 0) print("        " + line + "\n");
@@ -327,23 +269,17 @@ private:
       std::string why = engine_error(outcome.output);
       if (why.empty()) why = fmt::format("exit status {}", outcome.status);
       throw FailedRun(
-          fmt::format("{} failed; its output is in {}: {}", run.name, program.output.string(), why));
+          fmt::format("{} failed; its output is in {}: {}", step.name, program.output.string(), why));
     }
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return seconds_since(begin);
   }
 
-  const fs::path results_ = results_folder, bed_ = results_ / "bed", start_ = bed_ / "roller.restart",
-                 lift_ = results_ / "drive";
-  Plan plan_;
-  fs::path decks_;
-  bool with_lammps_;
   std::vector<Step> steps_;
   std::atomic<bool> left_ = false; ///< ends what runs beside the steps
-  std::future<void> drive_;
+  std::future<void> beside_;
 };
 
 void run(const Arguments &arguments) {
-  const Plan plan = plan_of(arguments);
   if (const std::string fault = engine_fault(Engine::liggghts); !fault.empty()) throw UsageError(fault);
   if (::access(".", W_OK) != 0)
     throw UsageError(fmt::format(
@@ -358,28 +294,36 @@ void run(const Arguments &arguments) {
       print(fmt::format("SKIPPED: the cases in LAMMPS: {}\n", fault));
       with_lammps = false;
     }
-  Demo(plan, inputs_here(), with_lammps).run();
+  const fs::path results = results_folder;
+  fs::create_directories(results);
+  const FolderLock lock = lock_output_folder(results, "the folder of results");
+  for (const fs::directory_entry &entry : fs::directory_iterator(results))
+    fs::remove_all(entry.path());
+  const std::vector<Step> steps = steps_of(arguments, with_lammps);
+  const bool drives = !arguments.cycles && !arguments.balls;
+  print(fmt::format("Single impacts, the four cases of the paper, a bed of {} balls{}: {} steps, {}. Pages "
+                    "of the chain can be opened when the first are made.\n",
+                    arguments.balls.value_or(bed_balls), drives ? " and a roller that drives" : "",
+                    steps.size(),
+                    drives ? "some four minutes on two cores" : "a minute or less for short runs"));
+  write_files({{results / commands_name, script_of(steps)}});
+  Demo(steps).run();
+  print(fmt::format("The report: {}\n", (fs::current_path() / page_folder / "index.html").string()));
+  print(fmt::format("The bed, for ParaView: {0}/bed/A/vtk and {0}/bed/B/vtk, the .pvd files\n"
+                    "The commands of these steps: {0}/{1}\n",
+                    results_folder, commands_name));
 }
 
 } // namespace
 
-void add_demo_command(CLI::App &app, Session &) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App *demo = app.add_subcommand(
-      "demo",
+void add_demo_command(CLI::App &app, Session &session) {
+  add_command(
+      app, session, "demo",
       "Runs the single impact, the four cases of the paper and a roller on a bed, under transition A and B; "
       "the cases in LAMMPS, too, if it is set up. Maps the roller's regimes and what its meter says of the "
       "soil. Without --cycles and --balls a roller also drives over a loose lift, twice. Writes results/demo "
-      "and report in the working folder. Takes some four minutes on two cores.");
-  text_option(demo, "--cycles", "COUNT", arguments->cycles,
-              fmt::format("cycles of each run of chain and bed; {} and {} if not given. Below 100 the report "
-                          "does not judge the chain by reference values",
-                          chain_cycles, bed_cycles));
-  text_option(
-      demo, "--balls", "COUNT", arguments->balls,
-      fmt::format("soil balls of the bed, {} or more; {} if not given. The box gets narrower with fewer",
-                  least_balls, bed_balls));
-  demo->callback([arguments] { run(*arguments); });
+      "and report in the working folder. Takes some four minutes on two cores.",
+      run);
 }
 
 } // namespace drumlin::post

@@ -5,13 +5,11 @@
 #include "chain/parameters.h"
 #include "chain/two_ends.h"
 #include "commands/chain_options.h"
-#include "commands/text_options.h"
 #include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/progress.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,7 +17,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -33,16 +30,42 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The options as given. Numbers stay text until they are checked.
-struct Arguments {
-  ChainArguments chain;
-  std::optional<std::string> cycles; // 30 where it stands
-  std::optional<std::string> way, speed, passes;
-  bool turn_round = false;
-  std::optional<std::string> contacts, tilt;
-  std::string samples_per_cycle = "200";
-  std::string impact_speed = "0";
-  std::string out;
+struct Arguments : Options {
+  explicit Arguments(Command &of) : Options(of) {
+    only_with(way, {&speed, &passes}, "a number with --way FILE");
+    only_with(way, {&turn_round}, "none without --way FILE");
+    only_with(contacts, {&turn_round}, "none without --contacts: the drum has no sides");
+    only_with(contacts, {&tilt}, "a number with --contacts");
+    not_with(way, {&cycles}, "none with --way: they follow from its length, --speed and --passes");
+  }
+  ChainArguments chain{command()};
+  Number cycles = number("--cycles", ExactOptions::cycles_range, "cycles of the excitation (default 30)");
+  Text way = text(
+      "--way", "FILE",
+      fmt::format("the roller drives over the soil of this table, with the columns {}, or with --contacts "
+                  "{}; chain.csv then has place and pass",
+                  way_file::header, way_file::header_of_halves));
+  Number speed = number("--speed", {1e-6, 100.0, "m/s"}, "of a roller that drives [m/s]");
+  Count passes = count("--passes", 1, 1000, "over the whole way: forth, back and so on (default 1)");
+  Flag turn_round =
+      flag("--turn-round",
+           "with --way and --contacts: it turns round for its way back, so that the ends of the drum "
+           "change sides; else it drives in reverse");
+  Text contacts =
+      text("--contacts", "COUNT|FILE",
+           fmt::format("drum and frame tilt, too, on 1 to {} equal contacts along the width of the drum that "
+                       "share k and c, or on those of a table with the columns {}; chain.csv then has tilt "
+                       "and both ends",
+                       most_contacts, contact_columns));
+  Number tilt =
+      number("--tilt", {-0.1, 0.1, "rad"},
+             "with --contacts: tilt of drum and frame at the start besides that of equilibrium [rad]");
+  Count samples_per_cycle =
+      count("--samples-per-cycle", 1, ExactOptions::most_samples, "rows of chain.csv per cycle", "200");
+  Number impact_speed = number(
+      "--impact-speed", ExactOptions::impact_speed_range,
+      "if positive: start touching and moving down at this speed [m/s] instead of at equilibrium", "0");
+  ResultPath out = result_folder("--out", "folder for the files, made if missing", required);
 };
 
 /// A roller that drives.
@@ -77,69 +100,47 @@ constexpr std::array<const char *, 4> file_names = {"chain.csv", "events.csv", "
 /// The roller that drives, if it does, and its time in the options.
 std::optional<Drive> judge_drive(const Arguments &arguments, const ChainParameters &parameters,
                                  ExactOptions &options) {
-  if (!arguments.way) {
-    if (arguments.speed) throw UsageError(refusal("--speed", *arguments.speed, "a number with --way FILE"));
-    if (arguments.passes)
-      throw UsageError(refusal("--passes", *arguments.passes, "a number with --way FILE"));
-    if (arguments.turn_round) throw UsageError(refusal("--turn-round", "given", "none without --way FILE"));
-    return std::nullopt;
-  }
+  if (!arguments.way) return std::nullopt;
   Drive drive;
-  if (arguments.turn_round) {
-    if (!arguments.contacts)
-      throw UsageError(refusal("--turn-round", "given", "none without --contacts: the drum has no sides"));
-    drive.back = WayBack::turned_round;
-  }
+  if (arguments.turn_round) drive.back = WayBack::turned_round;
   try {
-    drive.way = read_way(*arguments.way, arguments.contacts.has_value());
+    drive.way = read_way(*arguments.way, arguments.contacts.given());
   } catch (const std::invalid_argument &error) {
     throw UsageError(
         fmt::format("{}{}", std::string(error.what()).rfind("way", 0) == 0 ? "--" : "", error.what()));
   }
   for (const char *name : {"k", "D"})
-    if (const auto given = given_number(arguments.chain, name))
-      throw UsageError(refusal(given->first, given->second, "none with --way, which has it of each place"));
-  if (arguments.cycles)
-    throw UsageError(refusal("--cycles", *arguments.cycles,
-                             "none with --way: they follow from its length, --speed and --passes"));
+    if (const Number *const given = arguments.chain.given(name))
+      throw given->refused("none with --way, which has it of each place");
   if (!arguments.speed) throw UsageError("--speed is missing; allowed: a number [m/s], with --way");
-  drive.speed = number_option("--speed", *arguments.speed, {1e-6, 100.0, "m/s"});
-  if (arguments.passes) drive.passes = static_cast<int>(count_option("--passes", *arguments.passes, 1, 1000));
+  drive.speed = *arguments.speed;
+  drive.passes = arguments.passes.value_or(drive.passes);
   const double length = drive.way.back().s - drive.way.front().s;
   options.cycles = drive.passes * length / drive.speed / parameters.period();
   if (!ExactOptions::cycles_range.holds(options.cycles))
-    throw UsageError(refusal("--speed", *arguments.speed,
-                             fmt::format("one with which {} passes over {:g} m take at most {:g} cycles",
-                                         drive.passes, length, ExactOptions::cycles_range.most)));
+    throw arguments.speed.refused(fmt::format("one with which {} passes over {:g} m take at most {:g} cycles",
+                                              drive.passes, length, ExactOptions::cycles_range.most));
   constexpr std::size_t most_sections = 1'000'000;
   if (drive.way.size() * static_cast<std::size_t>(drive.passes) > most_sections)
-    throw UsageError(refusal("--passes", *arguments.passes,
-                             fmt::format("passes times rows of --way up to {}", most_sections)));
+    throw arguments.passes.refused(fmt::format("passes times rows of --way up to {}", most_sections));
   options.way = post::drive(drive.way, drive.speed, drive.passes, drive.back);
   return drive;
 }
 
 /// Refuses options that do not go with --contacts.
 void judge_with_contacts(const Arguments &arguments, bool file) {
-  const std::string &contacts = *arguments.contacts;
-  if (arguments.way && file)
-    throw UsageError(refusal("--contacts", contacts, "a whole number with --way, which has k and D"));
-  if (arguments.tilt &&
-      number_option("--impact-speed", arguments.impact_speed, ExactOptions::impact_speed_range) > 0.0)
-    throw UsageError(refusal("--tilt", *arguments.tilt, "none with --impact-speed"));
+  if (arguments.way && file) throw arguments.contacts.refused("a whole number with --way, which has k and D");
+  if (arguments.tilt && *arguments.impact_speed > 0.0)
+    throw arguments.tilt.refused("none with --impact-speed");
   for (const char *name : {"k", "D"})
-    if (const auto given = given_number(arguments.chain, name); given && file)
-      throw UsageError(
-          refusal(given->first, given->second, "none with a file of --contacts, which has k and c of each"));
+    if (const Number *const given = arguments.chain.given(name); given != nullptr && file)
+      throw given->refused("none with a file of --contacts, which has k and c of each");
 }
 
 /// The drum with two ends, if it is asked for.
 std::optional<Ends> judge_ends(const Arguments &arguments, const AskedChain &chain,
                                const ExactOptions &options) {
-  if (!arguments.contacts) {
-    if (arguments.tilt) throw UsageError(refusal("--tilt", *arguments.tilt, "a number with --contacts"));
-    return std::nullopt;
-  }
+  if (!arguments.contacts) return std::nullopt;
   const std::string &contacts = *arguments.contacts;
   const std::string allowed = fmt::format("a whole number from 1 to {}, or a file that can be read, with the "
                                           "columns {}",
@@ -162,20 +163,20 @@ std::optional<Ends> judge_ends(const Arguments &arguments, const AskedChain &cha
   const ChainParameters &p = chain.parameters;
   if (count) {
     if (!(*count >= 1.0 && *count <= most_contacts && *count == std::floor(*count)))
-      throw UsageError(refusal("--contacts", contacts, allowed));
+      throw arguments.contacts.refused(allowed);
     ends.machine.contacts = equal_contacts(static_cast<int>(*count), ends.width, p.k, p.damping());
     if (!options.way.empty()) ends.machine = over(std::move(ends.machine), options.way.front());
   } else {
     ends.file = contacts;
     if (std::error_code ignored; contacts.empty() || !fs::is_regular_file(*ends.file, ignored))
-      throw UsageError(refusal("--contacts", contacts, allowed));
+      throw arguments.contacts.refused(allowed);
     try {
       ends.machine.contacts = read_contacts(*ends.file, ends.width);
     } catch (const std::invalid_argument &error) {
       throw UsageError(error.what());
     }
   }
-  if (arguments.tilt) ends.machine.tilt = number_option("--tilt", *arguments.tilt, {-0.1, 0.1, "rad"});
+  if (arguments.tilt) ends.machine.tilt = *arguments.tilt;
   if (const std::string fault = ends.machine.invalid(); !fault.empty())
     throw UsageError(fault.rfind("contacts", 0) == 0 ? "--" + fault : fault); // else of the roller's file
   return ends;
@@ -189,18 +190,15 @@ Task judge(const Arguments &arguments) {
   task.roller = chain.roller;
   ExactOptions &options = task.options;
   task.drive = judge_drive(arguments, task.parameters, options);
-  if (arguments.cycles)
-    options.cycles = number_option("--cycles", *arguments.cycles, ExactOptions::cycles_range);
-  options.samples_per_cycle =
-      count_option("--samples-per-cycle", arguments.samples_per_cycle, 1, ExactOptions::most_samples);
-  options.impact_speed =
-      number_option("--impact-speed", arguments.impact_speed, ExactOptions::impact_speed_range);
+  if (arguments.cycles) options.cycles = *arguments.cycles;
+  options.samples_per_cycle = *arguments.samples_per_cycle;
+  options.impact_speed = *arguments.impact_speed;
   std::string fault = options.invalid();
   task.ends = judge_ends(arguments, chain, options);
   if (fault.empty())
     fault = task.ends ? too_much_work(task.ends->machine, options) : too_much_work(task.parameters, options);
   if (!fault.empty()) throw UsageError("--" + fault);
-  task.out = output_folder_option("--out", arguments.out);
+  task.out = *arguments.out;
   std::vector<GivenPath> given = files_of(arguments.chain.roller);
   if (arguments.way) given.push_back({"--way", *arguments.way});
   if (task.ends && task.ends->file) given.push_back({"--contacts", *task.ends->file});
@@ -214,11 +212,10 @@ Task judge(const Arguments &arguments) {
   return task;
 }
 
-std::vector<std::pair<std::string, std::string>> record(const Arguments &arguments, const Task &task,
-                                                        const std::string &command) {
+std::vector<std::pair<std::string, std::string>> record(const Arguments &arguments, const Task &task) {
   const ChainParameters &p = task.parameters;
   std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
-  values.insert(values.begin(), {{"deck", "exact"}, {"case", arguments.chain.chain_case}});
+  values.insert(values.begin(), {{"deck", "exact"}, {"case", *arguments.chain.chain_case}});
   const bool of_file = task.ends && task.ends->file;
   if (task.drive || of_file) { // k, D and c are those of each place
     const auto of_place = [](const auto &value) { return value.first == "k" || value.first == "D"; };
@@ -260,11 +257,11 @@ std::vector<std::pair<std::string, std::string>> record(const Arguments &argumen
     const auto rows = task.roller->rows(p.g);
     values.insert(values.end(), rows.begin(), rows.end());
   }
-  values.insert(values.end(), {{"command", command}, {"ended", "yes"}});
+  values.insert(values.end(), {{"command", arguments.session().command}, {"ended", "yes"}});
   return values;
 }
 
-void run(const Arguments &arguments, const std::string &command) {
+void run(const Arguments &arguments) {
   const Task task = judge(arguments);
   if (task.roller)
     for (const std::string &line : task.roller->lines(task.parameters.g))
@@ -291,14 +288,14 @@ void run(const Arguments &arguments, const std::string &command) {
   write_files({{task.out / file_names[0], chain_text(result.history)},
                {task.out / file_names[1], events_text(result.events)},
                {task.out / file_names[2], cycles_text(result.cycles)},
-               {task.out / file_names[3], parameters_text(record(arguments, task, command))}});
+               {task.out / file_names[3], parameters_text(record(arguments, task))}});
   const std::string of_moment =
       task.me_re
           ? fmt::format(", of the eccentric moment {:g} kg m of the roller, whatever the masses", *task.me_re)
           : "";
   fmt::print("{}: {} samples, {} events, {} cycles (case {}, transition {}; {} steps), Fw {:g} N{}\n",
              task.out.string(), result.history.size(), result.events.size(), result.cycles.size(),
-             arguments.chain.chain_case, arguments.chain.transition, result.pieces, task.parameters.Fw,
+             *arguments.chain.chain_case, *arguments.chain.transition, result.pieces, task.parameters.Fw,
              of_moment);
   if (!task.ends) return;
   const std::string of_tilt = orbit.of_tilt < 0.0 ? "" : fmt::format(", of tilting {:.4g}", orbit.of_tilt);
@@ -318,40 +315,11 @@ void run(const Arguments &arguments, const std::string &command) {
 } // namespace
 
 void add_exact_command(CLI::App &app, Session &session) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App *exact = app.add_subcommand(
-      "exact",
+  add_command(
+      app, session, "exact",
       "Solve the chain soil - drum - frame without an engine, in closed form. Writes chain.csv, events.csv, "
-      "cycles.csv and parameters.csv.");
-  add_chain_options(*exact, arguments->chain);
-  text_option(exact, "--cycles", "NUMBER", arguments->cycles, "cycles of the excitation (default 30)");
-  text_option(
-      exact, "--way", "FILE", arguments->way,
-      fmt::format("the roller drives over the soil of this table, with the columns {}, or with --contacts "
-                  "{}; chain.csv then has place and pass",
-                  way_file::header, way_file::header_of_halves));
-  text_option(exact, "--speed", "NUMBER", arguments->speed, "of a roller that drives [m/s]");
-  text_option(exact, "--passes", "COUNT", arguments->passes,
-              "over the whole way: forth, back and so on (default 1)");
-  exact->add_flag("--turn-round", arguments->turn_round,
-                  "with --way and --contacts: it turns round for its way back, so that the ends of the drum "
-                  "change sides; else it drives in reverse");
-  text_option(
-      exact, "--contacts", "COUNT|FILE", arguments->contacts,
-      fmt::format("drum and frame tilt, too, on 1 to {} equal contacts along the width of the drum that "
-                  "share k and c, or on those of a table with the columns {}; chain.csv then has tilt "
-                  "and both ends",
-                  most_contacts, contact_columns));
-  text_option(exact, "--tilt", "NUMBER", arguments->tilt,
-              "with --contacts: tilt of drum and frame at the start besides that of equilibrium [rad]");
-  text_option(exact, "--samples-per-cycle", "COUNT", arguments->samples_per_cycle,
-              "rows of chain.csv per cycle");
-  text_option(exact, "--impact-speed", "NUMBER", arguments->impact_speed,
-              "if positive: start touching and moving down at this speed [m/s] instead of at equilibrium");
-  exact->add_option("--out", arguments->out, "folder for the files, made if missing")
-      ->type_name("DIR")
-      ->required();
-  exact->callback([arguments, &session] { run(*arguments, session.command); });
+      "cycles.csv and parameters.csv.",
+      run);
 }
 
 } // namespace drumlin::post

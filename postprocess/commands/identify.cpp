@@ -1,7 +1,6 @@
 #include "commands/commands.h"
 
 #include "commands/record_options.h"
-#include "commands/text_options.h"
 #include "identify/page.h"
 #include "runs/parameter_file.h"
 #include "support/files.h"
@@ -9,18 +8,15 @@
 #include "support/constants.h"
 #include "support/progress.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace drumlin::post {
@@ -31,37 +27,64 @@ namespace {
 
 constexpr const char *table_name = "identify.csv";
 
-struct Arguments {
-  RecordArguments record;
-  bool accelerations_only = false;
-  bool compare = false;
-  bool anyway = false;
-  std::optional<std::string> origin;
-  std::optional<std::string> phase_within;
-  std::optional<std::string> least_force;
-  std::optional<std::string> m2_tolerance, m3_tolerance, me_re_tolerance;
-  std::string window = "10";
-  WayArguments way;
-  std::string out = "results/identify";
+struct Arguments : Options {
+  using Options::Options;
+  RecordArguments record{command()};
+  Flag accelerations_only =
+      flag("--accelerations-only",
+           "do not use positions and velocities of the record: what a roller with accelerometers has");
+  Flag anyway = flag("--anyway", "show a result that contradicts itself, or of a filtered record");
+  Flag compare =
+      flag("--compare", "solve the chain with this k and D, and draw it over the record: acceleration, force "
+                        "loop, share of contact, CMV, with what a spring and a dashpot cannot do; of a run, "
+                        "whose parameters.csv or --roller gives the bond");
+  Text origin =
+      text("--origin", "WORD",
+           "known: x_drum = 0 is where drum and soil just touch; free: unknown, for each contact; if not "
+           "given known "
+           "for the run of a chain whose parameters.csv has D or way");
+  Number phase_within = number(
+      "--phase-within", {0.0, 20.0, "degrees"},
+      "largest error of the exciter's phase [degrees], 0 to 20: the phase is then fitted as far as the "
+      "record tells it; if not given 3 for --phase, else 0");
+  Number least_force = number(
+      "--least-force", {0.0, 90.0, "%"},
+      "forces up to this share of the largest one [%] are not fitted, unless the law follows them, 0 to 90; "
+      "if not given 0 for the run of a chain, 20 for all others, since soil that a drum just touches is "
+      "softer");
+  Number m2_tolerance = number("--m2-tolerance", {0.0, 20.0, "%"}, tolerance_help("the mass of the drum"));
+  Number m3_tolerance = number("--m3-tolerance", {0.0, 20.0, "%"}, tolerance_help("the mass of the frame"));
+  Number me_re_tolerance =
+      number("--me-re-tolerance", {0.0, 20.0, "%"}, tolerance_help("the eccentric moment or force"));
+  Number bond_tolerance = number(
+      "--bond-tolerance", {0.0, 100.0, "%"},
+      "by how much stiffness and damping of the bond may be off [%], 0 to 100, if the record has no "
+      "acceleration of the frame; if not given 0, or 50 for a bond that neither --roller nor --k23 and --c23 "
+      "give");
+  Text window = text("--window", "COUNT",
+                     "cycles of a window, 4 or more, or of a roller that drives metres such as 0.5m", "10");
+  WayArguments way{command()};
+  ResultPath out = result_folder("--out", "folder of the results", "results/identify");
+
+private:
+  static std::string tolerance_help(const char *what) {
+    return fmt::format("by how much {} may be off [%], 0 to 20: the effect on k, c and D is shown apart",
+                       what);
+  }
 };
 
 RecordSetting judge(const Arguments &arguments) {
   RecordSetting setting;
-  setting.accelerations_only = arguments.accelerations_only;
+  setting.accelerations_only = arguments.accelerations_only.given();
   if (arguments.origin)
     setting.known_origin = choice_option("--origin", *arguments.origin, {"known", "free"}) == "known";
-  constexpr double most_degrees = 20.0, usual_degrees = 3.0;
-  if (arguments.record.phase) setting.phase_within = pi / 180.0 * usual_degrees;
-  if (arguments.phase_within)
-    setting.phase_within =
-        pi / 180.0 * number_option("--phase-within", *arguments.phase_within, {0.0, most_degrees, "degrees"});
-  constexpr double most_percent = 90.0;
-  if (arguments.least_force)
-    setting.least_force =
-        0.01 * number_option("--least-force", *arguments.least_force, {0.0, most_percent, "%"});
+  constexpr double usual_degrees = 3.0;
+  if (arguments.phase_within || arguments.record.phase)
+    setting.phase_within = pi / 180.0 * arguments.phase_within.value_or(usual_degrees);
+  if (arguments.least_force) setting.least_force = 0.01 * *arguments.least_force;
   constexpr int most_cycles = 1000000;
-  if (!window_length(arguments.window))
-    setting.window = count_option("--window", arguments.window, least_cycles, most_cycles);
+  if (!window_length(*arguments.window))
+    setting.window = count_option("--window", *arguments.window, least_cycles, most_cycles);
   return setting;
 }
 
@@ -72,45 +95,37 @@ Record read(const RecordArguments &arguments, const WayRange &way) {
 }
 
 /// The cycles in which the roller drives a length [m] at its mean speed.
-int cycles_on(const Record &record, const std::string &text, double length) {
+int cycles_on(const Record &record, const Text &window, double length) {
   double driven = 0.0;
   for (std::size_t row = 1; row < record.s.size(); ++row)
     driven += std::abs(record.s[row] - record.s[row - 1]);
-  if (!(driven > 0.0))
-    throw UsageError(refusal("--window", text, "metres only for a roller that drives, of a run with s"));
+  if (!(driven > 0.0)) throw window.refused("metres only for a roller that drives, of a run with s");
   const double a_cycle = driven / record.cycles();
   const double cycles = std::round(length / a_cycle);
   if (cycles < least_cycles || cycles > record.cycles() + 0.5)
-    throw UsageError(refusal("--window", text,
-                             fmt::format("{:.3g}m, four cycles of the excitation, to {:.3g}m, the whole way",
-                                         least_cycles * a_cycle, driven)));
+    throw window.refused(fmt::format("{:.3g}m, four cycles of the excitation, to {:.3g}m, the whole way",
+                                     least_cycles * a_cycle, driven));
   return static_cast<int>(cycles);
 }
 
 // The folder of results, absolute: new, empty or of an earlier identification, which is replaced.
-fs::path judged_folder(const std::string &text) {
-  const fs::path out = output_folder_option("--out", text);
-  if (fs::exists(out) && !fs::is_empty(out) && !fs::exists(out / table_name))
-    throw UsageError(refusal("--out", text, "a folder that is new, empty or of an earlier identification"));
-  fs::path place = fs::absolute(out).lexically_normal();
+fs::path judged_folder(const ResultPath &out) {
+  if (fs::exists(*out) && !fs::is_empty(*out) && !fs::exists(*out / table_name))
+    throw out.refused("a folder that is new, empty or of an earlier identification");
+  fs::path place = fs::absolute(*out).lexically_normal();
   if (!place.has_filename()) place = place.parent_path();
   return place;
 }
 
 /// The tolerances that were given, half widths of 95 %; else those of the roller's file.
 MachineTolerances judge_tolerances(const Arguments &arguments, const Record &record) {
-  constexpr Range range{0.0, 20.0, "%"};
-  const auto share = [&range](const char *name, const std::optional<std::string> &text, double of_file) {
-    return text ? 0.01 * number_option(name, *text, range) : of_file;
-  };
+  const auto share = [](const Number &given, double of_file) { return given ? 0.01 * *given : of_file; };
   const MachineTolerances &file = record.tolerances;
   const bool with_force = record.excitation_read || !record.Fw;
   if (with_force && arguments.me_re_tolerance)
-    throw UsageError(refusal("--me-re-tolerance", *arguments.me_re_tolerance,
-                             "not given for a record with a column F_excitation"));
-  return {share("--m2-tolerance", arguments.m2_tolerance, file.m2),
-          share("--m3-tolerance", arguments.m3_tolerance, file.m3),
-          share("--me-re-tolerance", arguments.me_re_tolerance, with_force ? 0.0 : file.me_re),
+    throw arguments.me_re_tolerance.refused("not given for a record with a column F_excitation");
+  return {share(arguments.m2_tolerance, file.m2), share(arguments.m3_tolerance, file.m3),
+          share(arguments.me_re_tolerance, with_force ? 0.0 : file.me_re),
           record.two_sided() ? file.exciter : 0.0};
 }
 
@@ -155,9 +170,9 @@ Laws machine_parts(const RecordArguments &arguments, const WayRange &way, const 
     RecordArguments changed = arguments;
     changed.roller.is_first = false;
     if (record.frame_computed) { // a given frame mass must not change the bond of a roller
-      changed.k23 = fmt::format("{:.17g}", record.bond->stiffness);
-      changed.c23 = fmt::format("{:.17g}", record.bond->damping);
-      changed.bond_tolerance = fmt::format("{:.17g}", 100.0 * record.bond->tolerance);
+      changed.k23.set(record.bond->stiffness);
+      changed.c23.set(record.bond->damping);
+      changed.bond_tolerance->set(100.0 * record.bond->tolerance);
     }
     change(changed, step);
     Record other = read(changed, way);
@@ -174,19 +189,18 @@ Laws machine_parts(const RecordArguments &arguments, const WayRange &way, const 
         parts[i].*value = std::hypot(parts[i].*value, tolerance / step * (again[i].*value - found[i].*value));
   };
   constexpr double share = 0.01, length = 0.01; // m
-  const auto text = [](double by, double value) { return fmt::format("{:.17g}", (1.0 + by) * value); };
-  add(tolerances.m2, share, [&](RecordArguments &a, double by) { a.m2 = text(by, *record.m2); });
-  add(tolerances.m3, share, [&](RecordArguments &a, double by) { a.m3 = text(by, *record.m3); });
+  add(tolerances.m2, share, [&](RecordArguments &a, double by) { a.m2.set((1.0 + by) * *record.m2); });
+  add(tolerances.m3, share, [&](RecordArguments &a, double by) { a.m3.set((1.0 + by) * *record.m3); });
   add(tolerances.exciter, length, [&](RecordArguments &a, double by) { a.exciter_shift = by; });
   add(of_bond, share, [&](RecordArguments &a, double by) {
-    a.k23 = text(by, record.bond->stiffness);
-    a.c23 = text(by, record.bond->damping);
+    a.k23.set((1.0 + by) * record.bond->stiffness);
+    a.c23.set((1.0 + by) * record.bond->damping);
   });
   add(of_force, share, [&](RecordArguments &a, double by) {
     if (a.Fw)
-      a.Fw = text(by, *record.Fw);
+      a.Fw.set((1.0 + by) * *record.Fw);
     else
-      a.me_re = text(by, *record.Fw / (*record.omega * *record.omega));
+      a.me_re.set((1.0 + by) * (*record.Fw / (*record.omega * *record.omega)));
   });
   return parts;
 }
@@ -195,7 +209,7 @@ void make_parent_of(const fs::path &place, const Arguments &arguments) {
   try {
     make_output_folder(place.parent_path());
   } catch (const std::runtime_error &error) {
-    throw UsageError(fmt::format("--out is '{}': {}", arguments.out, error.what()));
+    throw UsageError(fmt::format("--out is '{}': {}", arguments.out.text(), error.what()));
   }
 }
 
@@ -217,17 +231,16 @@ void publish(const Arguments &arguments, const fs::path &place, const Record &re
 }
 
 /// A record of both ends of the drum.
-void run_two_sided(const Arguments &arguments, const RecordSetting &setting, const fs::path &place,
-                   const Record &record, const WayRange &way) {
+void run_two_sided(const Arguments &arguments, const RecordArguments &asked, const RecordSetting &setting,
+                   const fs::path &place, const Record &record, const WayRange &way) {
   const char *const allowed = "not given for a record of both ends of the drum";
   if (arguments.compare) throw UsageError(refusal("--compare", "", allowed));
-  for (const auto &[name, text] : {std::pair{"--origin", arguments.origin},
-                                   std::pair{"--logger-low-pass", arguments.record.logger_low_pass}})
-    if (text) throw UsageError(refusal(name, *text, allowed));
+  for (const Text *option : {&arguments.origin, &arguments.record.logger_low_pass})
+    if (*option) throw option->refused(allowed);
   TimedProgress progress;
   TwoSidedRecord found = identify_two_sided(
       record, setting, [&progress](const std::string &what) { progress.tell("{}", what); });
-  const Laws parts = machine_parts(arguments.record, way, record, found, [&](const Record &changed) {
+  const Laws parts = machine_parts(asked, way, record, found, [&](const Record &changed) {
     RecordSetting same = setting;
     same.search = false;
     same.force = found.motion.force.mean;
@@ -240,7 +253,7 @@ void run_two_sided(const Arguments &arguments, const RecordSetting &setting, con
   });
   for (const std::string &line : identification_answer(found))
     fmt::print("  {}\n", line);
-  fmt::print("{}\n", (fs::path(arguments.out) / "index.html").string());
+  fmt::print("{}\n", (*arguments.out / "index.html").string());
 }
 
 void run(const Arguments &arguments) {
@@ -248,16 +261,18 @@ void run(const Arguments &arguments) {
   const WayRange way = judged(arguments.way);
   const fs::path place = judged_folder(arguments.out);
   keep_apart(files_of(arguments.record), {{"--out", place, true}});
-  Record record = read(arguments.record, way);
-  if (const auto length = window_length(arguments.window))
+  RecordArguments asked = arguments.record;
+  asked.bond_tolerance = arguments.bond_tolerance;
+  Record record = read(asked, way);
+  if (const auto length = window_length(*arguments.window))
     setting.window = cycles_on(record, arguments.window, *length);
   record.tolerances = judge_tolerances(arguments, record);
-  if (record.low_pass > 0.0 && !arguments.anyway)
+  if (record.low_pass > 0.0 && !arguments.anyway.given())
     throw UsageError(refusal("--low-pass", fmt::format("{:g}", record.low_pass),
                              "no filter: it smooths the jump of each landing, which changes k and c; the fit "
                              "averages noise by itself"));
   if (record.two_sided()) {
-    run_two_sided(arguments, setting, place, record, way);
+    run_two_sided(arguments, asked, setting, place, record, way);
     return;
   }
   if (arguments.compare) require_comparable(record);
@@ -265,9 +280,9 @@ void run(const Arguments &arguments) {
   IdentifiedRecord found =
       identify_record(record, setting, [&progress](const std::string &what) { progress.tell("{}", what); });
   const std::optional<std::string> doubt = contradiction(found);
-  if (doubt && !arguments.anyway)
+  if (doubt && !arguments.anyway.given())
     throw std::runtime_error(fmt::format("{}: {} (--anyway shows the result)", found.file.string(), *doubt));
-  const Laws parts = machine_parts(arguments.record, way, record, found, [&](const Record &changed) {
+  const Laws parts = machine_parts(asked, way, record, found, [&](const Record &changed) {
     RecordSetting same = setting;
     same.window = 0;
     same.search = false;
@@ -292,67 +307,25 @@ void run(const Arguments &arguments) {
   if (compared)
     for (const std::string &line : lumped_answer({*compared}))
       fmt::print("  {}\n", line);
-  fmt::print("{}: loops, residuals and {} windows\n", (fs::path(arguments.out) / "index.html").string(),
+  fmt::print("{}: loops, residuals and {} windows\n", (*arguments.out / "index.html").string(),
              found.windows.size());
 }
 
 } // namespace
 
-void add_identify_command(CLI::App &app, Session & /*session*/) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App *identify = app.add_subcommand(
-      "identify",
-      "Stiffness k, damping c and D of the contact between drum and soil, with 95 % confidence "
-      "intervals, and whether the contact pulls, from the motion of drum and frame. Writes a page "
-      "with plots, and identify.csv.");
-  add_record_options(*identify, arguments->record);
-  identify->add_flag(
-      "--accelerations-only", arguments->accelerations_only,
-      "do not use positions and velocities of the record: what a roller with accelerometers has");
-  identify->add_flag("--anyway", arguments->anyway,
-                     "show a result that contradicts itself, or of a filtered record");
-  identify->add_flag("--compare", arguments->compare,
-                     "solve the chain with this k and D, and draw it over the record: acceleration, force "
-                     "loop, share of contact, CMV, with what a spring and a dashpot cannot do; of a run, "
-                     "whose parameters.csv or --roller gives the bond");
-  text_option(identify, "--origin", "WORD", arguments->origin,
-              "known: x_drum = 0 is where drum and soil just touch; free: unknown, for each contact; if not "
-              "given known "
-              "for the run of a chain whose parameters.csv has D or way");
-  text_option(
-      identify, "--phase-within", "NUMBER", arguments->phase_within,
-      "largest error of the exciter's phase [degrees], 0 to 20: the phase is then fitted as far as the "
-      "record tells it; if not given 3 for --phase, else 0");
-  text_option(
-      identify, "--least-force", "NUMBER", arguments->least_force,
-      "forces up to this share of the largest one [%] are not fitted, unless the law follows them, 0 to 90; "
-      "if not given 0 for the run of a chain, 20 for all others, since soil that a drum just touches is "
-      "softer");
-  for (const auto &[name, into, what] :
-       {std::tuple{"--m2-tolerance", &arguments->m2_tolerance, "the mass of the drum"},
-        std::tuple{"--m3-tolerance", &arguments->m3_tolerance, "the mass of the frame"},
-        std::tuple{"--me-re-tolerance", &arguments->me_re_tolerance, "the eccentric moment or force"}})
-    text_option(
-        identify, name, "NUMBER", *into,
-        fmt::format("by how much {} may be off [%], 0 to 20: the effect on k, c and D is shown apart", what));
-  text_option(
-      identify, "--bond-tolerance", "NUMBER", arguments->record.bond_tolerance,
-      "by how much stiffness and damping of the bond may be off [%], 0 to 100, if the record has no "
-      "acceleration of the frame; if not given 0, or 50 for a bond that neither --roller nor --k23 and --c23 "
-      "give");
-  text_option(identify, "--window", "COUNT", arguments->window,
-              "cycles of a window, 4 or more, or of a roller that drives metres such as 0.5m");
-  add_way_options(*identify, arguments->way);
-  text_option(identify, "--out", "DIR", arguments->out, "folder of the results");
-  identify->footer(
-      "Examples:\n"
-      "  drumlin identify results/chain\n"
-      "  drumlin identify results/bed/B --compare --window 5 --out results/identify-bed\n"
-      "  drumlin identify measured.csv --column 'a_drum=Acc drum:g' --column 'a_frame=Acc frame:g' "
-      "--sampling-rate 1000 --frequency 29 --phase 90 --phase-within 1 --me-re 7.31 --m2 3962 --m3 "
-      "3379\n"
-      "  drumlin identify measured.csv --roller inputs/rollers/CA3500 --setting high\n");
-  identify->callback([arguments] { run(*arguments); });
+void add_identify_command(CLI::App &app, Session &session) {
+  add_command(app, session, "identify",
+              "Stiffness k, damping c and D of the contact between drum and soil, with 95 % confidence "
+              "intervals, and whether the contact pulls, from the motion of drum and frame. Writes a page "
+              "with plots, and identify.csv.",
+              run,
+              "Examples:\n"
+              "  drumlin identify results/chain\n"
+              "  drumlin identify results/bed/B --compare --window 5 --out results/identify-bed\n"
+              "  drumlin identify measured.csv --column 'a_drum=Acc drum:g' --column 'a_frame=Acc frame:g' "
+              "--sampling-rate 1000 --frequency 29 --phase 90 --phase-within 1 --me-re 7.31 --m2 3962 --m3 "
+              "3379\n"
+              "  drumlin identify measured.csv --roller inputs/rollers/CA3500 --setting high\n");
 }
 
 } // namespace drumlin::post

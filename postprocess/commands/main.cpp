@@ -20,34 +20,7 @@
 
 namespace {
 
-using drumlin::post::AddCommand;
 using drumlin::post::refusal;
-
-struct Subcommand {
-  const char *name;
-  AddCommand add;
-};
-
-// A new subcommand is one line here. A build with -DDRUMLIN_POSTPROCESS=OFF has `run` alone, which needs none
-// of the libraries of the others.
-constexpr std::array subcommands = {
-#ifndef DRUMLIN_ONLY_RUN
-    Subcommand{"advise", &drumlin::post::add_advise_command},
-    Subcommand{"bed", &drumlin::post::add_bed_command},
-    Subcommand{"calibrate", &drumlin::post::add_calibrate_command},
-    Subcommand{"demo", &drumlin::post::add_demo_command},
-    Subcommand{"exact", &drumlin::post::add_exact_command},
-    Subcommand{"way", &drumlin::post::add_way_command},
-    Subcommand{"identify", &drumlin::post::add_identify_command},
-    Subcommand{"map", &drumlin::post::add_map_command},
-    Subcommand{"meter", &drumlin::post::add_meter_command},
-    Subcommand{"passes", &drumlin::post::add_passes_command},
-    Subcommand{"report", &drumlin::post::add_report_command},
-    Subcommand{"study", &drumlin::post::add_study_command},
-    Subcommand{"vtk", &drumlin::post::add_vtk_command},
-#endif
-    Subcommand{"run", &drumlin::post::add_run_command},
-};
 
 #ifdef DRUMLIN_ONLY_RUN
 constexpr const char *left_out = " in a build with -DDRUMLIN_POSTPROCESS=OFF";
@@ -66,13 +39,6 @@ constexpr std::array gone_options = {
 };
 
 constexpr int bad_usage = 2;
-
-std::string command_line(int argc, char **argv) {
-  std::string text = "drumlin";
-  for (int i = 1; i < argc; ++i)
-    text += fmt::format(" {}", argv[i]);
-  return text;
-}
 
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n')
@@ -94,35 +60,23 @@ void open_standard_streams() {
       static_cast<void>(::open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY));
 }
 
-int run(int argc, char **argv) {
-  const std::string wanted = argc > 1 ? argv[1] : "";
-  const bool known =
-      std::any_of(subcommands.begin(), subcommands.end(),
-                  [&wanted](const Subcommand &subcommand) { return wanted == subcommand.name; });
+int run(const std::vector<std::string> &words) {
+  const std::string wanted = words.empty() ? "" : words.front();
+  const bool known = drumlin::post::is_subcommand(wanted);
   const std::string name = known ? wanted : "";
-
-  drumlin::post::Session session;
-  session.command = command_line(argc, argv);
-  CLI::App app("Vibratory roller on granular soil: exact solutions, analysis and reports.", "drumlin");
-  app.set_version_flag("--version", std::string("drumlin " DRUMLIN_VERSION));
-  app.require_subcommand(1);
-  app.footer("'drumlin SUBCOMMAND --help' tells the options of a subcommand.");
+  if (!known && !wanted.empty() && wanted.front() != '-')
+    return fail(
+        "", refusal("the subcommand", wanted, std::string("those that 'drumlin --help' lists") + left_out),
+        bad_usage);
   try {
-    for (const Subcommand &subcommand : subcommands)
-      subcommand.add(app, session);
-    if (!known && !wanted.empty() && wanted.front() != '-')
-      return fail(
-          "", refusal("the subcommand", wanted, std::string("those that 'drumlin --help' lists") + left_out),
-          bad_usage);
-    app.parse(argc, argv);
+    drumlin::post::call(words);
   } catch (const CLI::ParseError &error) {
-    if (error.get_exit_code() == 0) return app.exit(error); // help or version
     for (const GoneOption &gone : gone_options)
-      for (const std::string &word : std::vector<std::string>(argv + 1, argv + argc))
+      for (const std::string &word : words)
         if (name == gone.subcommand && word.substr(0, word.find('=')) == gone.option)
           return fail(name, refusal(gone.option, "given", gone.instead), bad_usage);
     return fail(name,
-                refusal("the command line", session.command,
+                refusal("the command line", drumlin::post::command_line(words),
                         fmt::format("what 'drumlin{} --help' lists: {}", name.empty() ? "" : " " + name,
                                     error.what())),
                 bad_usage);
@@ -131,7 +85,7 @@ int run(int argc, char **argv) {
   } catch (const std::exception &error) {
     return fail(name, error.what(), 1);
   }
-  return session.status;
+  return 0;
 }
 
 } // namespace
@@ -140,7 +94,7 @@ int main(int argc, char **argv) {
   open_standard_streams();
   drumlin::post::stop_where_told();
   try {
-    const int status = run(argc, argv);
+    const int status = run({argv + 1, argv + argc});
     const bool printed = std::fflush(stdout) == 0 && static_cast<bool>(std::cout.flush());
     return status != 0 || printed ? status
                                   : fail("", "standard output cannot be written; allowed: one that can", 1);

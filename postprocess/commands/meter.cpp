@@ -1,19 +1,16 @@
 #include "commands/commands.h"
 
 #include "commands/record_options.h"
-#include "commands/text_options.h"
 #include "meter/page.h"
 #include "record/excitation.h"
 #include "support/files.h"
 #include "support/options.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 
 namespace drumlin::post {
 
@@ -24,16 +21,24 @@ namespace {
 constexpr const char *values_name = "meter.csv";
 constexpr const char *shown_name = "first_second.csv"; // in the folder of --show
 
-/// The options as given. Numbers stay text until all are judged.
-struct Arguments {
-  RecordArguments record;
-  bool show = false;
-  std::string rmv_constant = "100";
-  std::string same = "0.05";
-  DrumArguments drum;
-  std::optional<std::string> window;
-  WayArguments way;
-  std::string out = "results/meter";
+struct Arguments : Options {
+  using Options::Options;
+  RecordArguments record{command()};
+  Flag show = flag("--show", "only print how the file was understood and draw its first second");
+  Number rmv_constant = number("--rmv-constant", {1.0, 1e4}, "constant of RMV, 100 or 300 in sources", "100");
+  Number same =
+      number("--same", {1e-9, 1.0},
+             "relative difference of the harmonics of two cycles up to which they count as the same "
+             "motion; more for noisy records",
+             "0.05");
+  Text window =
+      text("--window", "COUNT",
+           "cycles in a window, an even number of 4 or more, or seconds such as 0.5s, or of a roller "
+           "that drives metres such as 0.5m; without it 10 cycles, or all of a shorter record");
+  WayArguments way{command()};
+  DrumArguments drum{command()};
+  ResultPath out =
+      result_folder("--out", "folder of meter.csv and the page; an earlier one is replaced", "results/meter");
 };
 
 struct Task {
@@ -65,11 +70,11 @@ void take_window(const std::string &text, Task &task) {
 }
 
 /// A folder that is new, empty or of an earlier call.
-fs::path checked_out(const std::string &text) {
-  fs::path out = output_folder_option("--out", text);
+fs::path checked_out(const ResultPath &asked) {
+  const fs::path &out = *asked;
   if (fs::is_directory(out) && !fs::is_empty(out) && !fs::exists(out / values_name) &&
       !fs::exists(out / "data" / shown_name))
-    throw UsageError(refusal("--out", text, "a folder that is new, empty or of an earlier 'drumlin meter'"));
+    throw asked.refused("a folder that is new, empty or of an earlier 'drumlin meter'");
   return out;
 }
 
@@ -77,8 +82,8 @@ Task judge(const Arguments &arguments) {
   Task task;
   if (arguments.window) take_window(*arguments.window, task);
   MeterOptions &options = task.options;
-  options.rmv_constant = number_option("--rmv-constant", arguments.rmv_constant, Range{1.0, 1e4});
-  options.same = number_option("--same", arguments.same, Range{1e-9, 1.0});
+  options.rmv_constant = *arguments.rmv_constant;
+  options.same = *arguments.same;
   RollerArguments roller = arguments.record.roller;
   roller.is_first = false; // of two readings
   if (const auto drum = judged(arguments.drum, judged(roller))) {
@@ -154,8 +159,8 @@ void run(const Arguments &arguments) {
   if (task.window_seconds) task.options.window = cycles_in(*task.window_seconds, result.record.period());
   result.options = task.options;
   if (task.window_metres && result.record.two_sided())
-    throw UsageError(refusal("--window", *arguments.window,
-                             "a number of cycles, or seconds as 2s, for a record of both ends of the drum"));
+    throw arguments.window.refused(
+        "a number of cycles, or seconds as 2s, for a record of both ends of the drum");
   result.windows = task.window_metres
                        ? windows_of_length(result.cycles, result.record, *task.window_metres, result.options)
                        : meter_windows(result.cycles, result.options);
@@ -186,35 +191,20 @@ void run(const Arguments &arguments) {
 
 } // namespace
 
-void add_meter_command(CLI::App &app, Session & /*session*/) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App *meter = app.add_subcommand("meter", "What the meter of a roller shows, from a record of its "
-                                                "motion: harmonics of the drum's acceleration, CMV, RMV, "
-                                                "stiffness k_B, modulus E_vib, energy and operating mode "
-                                                "over windows of whole cycles. Writes meter.csv and a "
-                                                "page with plots.");
-  add_record_options(*meter, arguments->record);
-  meter->add_flag("--show", arguments->show,
-                  "only print how the file was understood and draw its first second");
-  text_option(meter, "--rmv-constant", "NUMBER", arguments->rmv_constant,
-              "constant of RMV, 100 or 300 in sources");
-  text_option(meter, "--same", "NUMBER", arguments->same,
-              "relative difference of the harmonics of two cycles up to which they count as the same "
-              "motion; more for noisy records");
-  text_option(meter, "--window", "COUNT", arguments->window,
-              "cycles in a window, an even number of 4 or more, or seconds such as 0.5s, or of a roller "
-              "that drives metres such as 0.5m; without it 10 cycles, or all of a shorter record");
-  add_way_options(*meter, arguments->way);
-  add_drum_options(*meter, arguments->drum);
-  text_option(meter, "--out", "DIR", arguments->out,
-              "folder of meter.csv and the page; an earlier one is replaced");
-  meter->footer("Examples:\n"
-                "  drumlin meter results/my-run\n"
-                "  drumlin meter results/my-run/chain.csv --window 0.5s --out results/meter-samples\n"
-                "  drumlin meter field.csv --column 'time=Time:ms' --column 'a_drum=Acc Z:-g' --frequency 29 "
-                "--low-pass 200 \\\n"
-                "      --window 20");
-  meter->callback([arguments] { run(*arguments); });
+void add_meter_command(CLI::App &app, Session &session) {
+  add_command(app, session, "meter",
+              "What the meter of a roller shows, from a record of its "
+              "motion: harmonics of the drum's acceleration, CMV, RMV, "
+              "stiffness k_B, modulus E_vib, energy and operating mode "
+              "over windows of whole cycles. Writes meter.csv and a "
+              "page with plots.",
+              run,
+              "Examples:\n"
+              "  drumlin meter results/my-run\n"
+              "  drumlin meter results/my-run/chain.csv --window 0.5s --out results/meter-samples\n"
+              "  drumlin meter field.csv --column 'time=Time:ms' --column 'a_drum=Acc Z:-g' --frequency 29 "
+              "--low-pass 200 \\\n"
+              "      --window 20");
 }
 
 } // namespace drumlin::post

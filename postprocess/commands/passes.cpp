@@ -1,18 +1,15 @@
-#include "commands/passes.h"
-
 #include "commands/commands.h"
-#include "commands/text_options.h"
+
+#include "commands/roller_options.h"
 #include "passes/page.h"
 #include "passes/tables.h"
 #include "runs/parameter_file.h"
 #include "support/files.h"
 #include "support/options.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 
 namespace drumlin::post {
@@ -24,6 +21,37 @@ namespace {
 constexpr const char *page_folder = "passes"; // in the folder of the results
 constexpr const char *usual_out = "results/passes";
 
+struct Arguments : Options {
+  using Options::Options;
+  Texts folders =
+      words("FOLDER", "TEXT",
+            "folder of a run of inputs/bed/in.drive; several: beds that differ in their seed, of which "
+            "means and intervals are written");
+  Text meter = text("--meter", "NAME",
+                    "value of the cells that is mapped and judged: CMV, RMV, CCV, k_B, E_vib, contact_share, "
+                    "peak_force",
+                    "CMV");
+  Number target = number(
+      "--target", {0.0, 1e15, "", false, true},
+      "of this value, in its unit in passes.csv: cells at or above it are counted; without it nothing is "
+      "judged");
+  Number coverage = number("--coverage", {0.0, 100.0, "%", false, true},
+                           "share of the cells that must reach the target [%]; rules have 70 or 80", "80");
+  Number cell =
+      number("--cell", {0.0, 1e3, "m", false, true},
+             "length of a cell along the way [m], of four cycles of the excitation or more", "0.34");
+  Number spacing =
+      number("--spacing", {1e-6, 1e3, "m"},
+             "distance of the vertical lines along which surfaces are measured [m]; a quarter of the radius "
+             "of the smallest ball if not given");
+  DrumArguments drum{command()};
+  RollerArguments roller{command(), "E_vib"};
+  ResultPath out = result_folder(
+      "--out", fmt::format("folder of the tables, and of the page in its folder {}; FOLDER if not given, {} "
+                           "for several",
+                           page_folder, usual_out));
+};
+
 struct Task {
   std::vector<fs::path> folders;
   PassesOptions options;
@@ -31,33 +59,32 @@ struct Task {
   fs::path out;
 };
 
-Task judge(const PassesArguments &arguments) {
+Task judge(const Arguments &arguments) {
   Task task;
-  task.rule.coverage = 0.01 * number_option("--coverage", arguments.coverage, {0.0, 100.0, "%", false, true});
-  if (arguments.target)
-    task.rule.target = number_option("--target", *arguments.target, {0.0, 1e15, "", false, true});
+  task.rule.coverage = 0.01 * *arguments.coverage;
+  task.rule.target = arguments.target.value();
   for (const std::string &text : arguments.folders) {
     const fs::path folder = path_option("FOLDER", text);
     for (const fs::path &other : task.folders)
       if (fs::exists(folder) && fs::exists(other) && fs::equivalent(folder, other))
-        throw UsageError(refusal("FOLDER", text, "each run once"));
+        throw arguments.folders.refused(text, "each run once");
     task.folders.push_back(folder);
   }
   PassesOptions &options = task.options;
-  options.cell = number_option("--cell", arguments.cell, {0.0, 1e3, "m", false, true});
-  if (arguments.spacing) options.spacing = number_option("--spacing", *arguments.spacing, {1e-6, 1e3, "m"});
+  options.cell = *arguments.cell;
+  if (arguments.spacing) options.spacing = *arguments.spacing;
   if (const auto drum = judged(arguments.drum, judged(arguments.roller))) {
     options.meter.drum_radius = drum->radius;
     options.meter.drum_width = drum->length;
     options.meter.poisson = drum->poisson;
   }
   const std::string usual = task.folders.size() == 1 ? task.folders.front().string() : usual_out;
-  task.out = output_folder_option("--out", arguments.out.value_or(usual));
+  task.out = arguments.out ? *arguments.out : output_folder_option("--out", usual);
   std::vector<GivenPath> inputs = files_of(arguments.roller);
   try {
-    cell_meter(arguments.meter);
+    cell_meter(*arguments.meter);
   } catch (const std::invalid_argument &names) {
-    throw UsageError(refusal("--meter", arguments.meter, names.what()));
+    throw arguments.meter.refused(names.what());
   }
   for (const fs::path &folder : task.folders)
     for (const GivenPath &file :
@@ -77,9 +104,7 @@ void check_sample(const Drive &drive, const std::vector<PassesResult> &others) {
                               other.folder.string(), why)));
 }
 
-} // namespace
-
-void print_passes(const PassesArguments &arguments) {
+void run(const Arguments &arguments) {
   const Task task = judge(arguments);
   std::vector<PassesResult> results;
   for (const fs::path &folder : task.folders) {
@@ -91,10 +116,9 @@ void print_passes(const PassesArguments &arguments) {
       throw UsageError(fault.what());
     }
   }
-  const JudgedMap judged(meter_map(results, cell_meter(arguments.meter)), task.rule);
+  const JudgedMap judged(meter_map(results, cell_meter(*arguments.meter)), task.rule);
   if (judged.rows.empty() && task.rule.target)
-    throw UsageError(refusal("--target", *arguments.target,
-                             fmt::format("only where cells have a value of {}", arguments.meter)));
+    throw arguments.target.refused(fmt::format("only where cells have a value of {}", *arguments.meter));
   make_output_folder(task.out);
   FolderInProgress page(fs::weakly_canonical(fs::absolute(task.out)) / page_folder);
   write_passes_page(page.path(), results, judged);
@@ -123,45 +147,19 @@ void print_passes(const PassesArguments &arguments) {
              (task.out / page_folder / "index.html").string());
 }
 
-void add_passes_command(CLI::App &app, Session & /*session*/) {
-  const auto arguments = std::make_shared<PassesArguments>();
-  CLI::App *passes = app.add_subcommand(
-      "passes",
-      "What each pass of a roller that drives over a bed leaves: settlement, how much of it is "
-      "compaction, solid fraction of each layer, heave, energy, meter values along the way, profiles "
-      "over depth, rules of acceptance. Writes passes.csv, way.csv, surface.csv, depth.csv, "
-      "acceptance.csv and a page.");
-  passes
-      ->add_option(
-          "FOLDER", arguments->folders,
-          "folder of a run of inputs/bed/in.drive; several: beds that differ in their seed, of which "
-          "means and intervals are written")
-      ->required();
-  text_option(passes, "--meter", "NAME", arguments->meter,
-              "value of the cells that is mapped and judged: CMV, RMV, CCV, k_B, E_vib, contact_share, "
-              "peak_force");
-  text_option(
-      passes, "--target", "NUMBER", arguments->target,
-      "of this value, in its unit in passes.csv: cells at or above it are counted; without it nothing is "
-      "judged");
-  text_option(passes, "--coverage", "NUMBER", arguments->coverage,
-              "share of the cells that must reach the target [%]; rules have 70 or 80");
-  text_option(passes, "--cell", "NUMBER", arguments->cell,
-              "length of a cell along the way [m], of four cycles of the excitation or more");
-  text_option(passes, "--spacing", "NUMBER", arguments->spacing,
-              "distance of the vertical lines along which surfaces are measured [m]; a quarter of the radius "
-              "of the smallest ball if not given");
-  add_drum_options(*passes, arguments->drum);
-  add_roller_options(*passes, arguments->roller, "E_vib");
-  text_option(passes, "--out", "DIR", arguments->out,
-              fmt::format("folder of the tables, and of the page in its folder {}; FOLDER if not given, {} "
-                          "for several",
-                          page_folder, usual_out));
-  passes->footer("Examples:\n"
-                 "  drumlin passes results/drive\n"
-                 "  drumlin passes results/drive-1 results/drive-2 results/drive-3 --out results/seeds\n"
-                 "  drumlin passes results/drive --target 30 --coverage 70");
-  passes->callback([arguments] { print_passes(*arguments); });
+} // namespace
+
+void add_passes_command(CLI::App &app, Session &session) {
+  add_command(app, session, "passes",
+              "What each pass of a roller that drives over a bed leaves: settlement, how much of it is "
+              "compaction, solid fraction of each layer, heave, energy, meter values along the way, profiles "
+              "over depth, rules of acceptance. Writes passes.csv, way.csv, surface.csv, depth.csv, "
+              "acceptance.csv and a page.",
+              run,
+              "Examples:\n"
+              "  drumlin passes results/drive\n"
+              "  drumlin passes results/drive-1 results/drive-2 results/drive-3 --out results/seeds\n"
+              "  drumlin passes results/drive --target 30 --coverage 70");
 }
 
 } // namespace drumlin::post

@@ -1,15 +1,12 @@
 #include "commands/record_options.h"
 
 #include "chain/parameters.h"
-#include "commands/text_options.h"
 #include "record/excitation.h"
 #include "runs/parameter_file.h"
 #include "support/csv.h"
 #include "support/options.h"
 #include "support/constants.h"
-#include "support/usage_error.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -27,50 +24,6 @@ namespace {
 
 /// Files of a run from which its record may be read.
 constexpr std::array<const char *, 3> run_files = {"chain.csv", "bed.csv", "cycles.csv"};
-
-/// An option that is a number of the record.
-struct RecordNumber {
-  const char *name;
-  std::optional<std::string> RecordArguments::*text;
-  Range range;
-  const char *help;
-};
-
-constexpr std::array<RecordNumber, 12> record_numbers = {
-    {{"--sampling-rate",
-      &RecordArguments::sampling_rate,
-      {1e-3, 1e9, "Hz"},
-      "samples per second [Hz], for a file without times or with times of few digits"},
-     {"--frequency", &RecordArguments::frequency, {1e-3, 1e6, "Hz"}, "of the excitation [Hz]"},
-     {"--phase",
-      &RecordArguments::phase,
-      {-360.0, 360.0, "degrees"},
-      "of the excitation at time 0 [degrees]: F_e = Fw sin(2 pi frequency t + phase), positive down"},
-     {"--Fw", &RecordArguments::Fw, {1e-9, 1e15, "N"}, "amplitude of the excitation force [N]"},
-     {"--me-re",
-      &RecordArguments::me_re,
-      {1e-9, 1e12, "kg m"},
-      "eccentric moment m_e r_e [kg m] instead: Fw = m_e r_e (2 pi frequency)^2"},
-     {"--m2", &RecordArguments::m2, {1e-6, 1e12, "kg"}, "mass of the drum [kg]"},
-     {"--m3", &RecordArguments::m3, {1e-6, 1e12, "kg"}, "mass of the frame on the drum [kg]"},
-     {"--low-pass",
-      &RecordArguments::low_pass,
-      {1e-3, 1e9, "Hz"},
-      "cut-off frequency of a filter without phase shift for all columns [Hz]"},
-     {"--pulse-angle",
-      &RecordArguments::pulse_angle,
-      {-360.0, 360.0, "degrees"},
-      "angle of the exciter at which the column pulse rises [degrees], 0 if not given: F_e = Fw "
-      "sin(angle)"},
-     {"--corner-frequency",
-      &RecordArguments::corner_frequency,
-      {1e-4, 1e4, "Hz"},
-      "of accelerometers that pass no constant, of first order [Hz]: what they take is given back"},
-     {"--k23",
-      &RecordArguments::k23,
-      {1e-3, 1e15, "N/m"},
-      "stiffness of the bond of drum and frame [N/m]; a record without the frame's acceleration needs it"},
-     {"--c23", &RecordArguments::c23, {0.0, 1e12, "N s/m"}, "damping of the bond [N s/m]"}}};
 
 using Noted = std::map<std::string, std::string>;
 
@@ -121,10 +74,10 @@ void add_roller(GivenRoller &roller, const Noted &noted, RecordOptions &options)
 
 /// The bond of the roller's file or of the case, of which options replace single values; with neither the
 /// usual one for the frame's mass, which half its size may be missing from.
-std::optional<KnownBond> bond_of(std::optional<double> k23, std::optional<double> c23,
-                                 const std::optional<GivenRoller> &roller,
-                                 const std::optional<std::string> &chain_case, const RecordOptions &options) {
+std::optional<KnownBond> bond_of(const RecordArguments &arguments, const std::optional<GivenRoller> &roller,
+                                 const RecordOptions &options) {
   if (!options.m3) return std::nullopt;
+  const std::optional<double> &k23 = arguments.k23.value(), &c23 = arguments.c23.value();
   constexpr double of_assumed = 0.5;
   const double m3 = *options.m3, omega3 = 2.0 * pi * roller_file::assumed_frame_frequency;
   KnownBond bond;
@@ -135,8 +88,8 @@ std::optional<KnownBond> bond_of(std::optional<double> k23, std::optional<double
     const Roller &machine = roller->machine;
     bond = {machine.k23, machine.c23,
             machine.bond_tolerance.value_or(machine.bond_assumed ? of_assumed : 0.0)};
-  } else if (chain_case) {
-    const ChainParameters p = given_case(*chain_case, Transition::B);
+  } else if (arguments.chain_case) {
+    const ChainParameters p = given_case(*arguments.chain_case, Transition::B);
     bond = {p.k23, p.c23, 0.0};
   }
   if (k23 && c23) bond.tolerance = 0.0;
@@ -162,56 +115,10 @@ std::optional<TwoEnds> ends_of(const GivenRoller &roller, double exciter_shift) 
 
 } // namespace
 
-void add_record_options(CLI::App &command, RecordArguments &arguments) {
-  command
-      .add_option(
-          "RECORD", arguments.records,
-          "folder of a run, its chain.csv, bed.csv or cycles.csv, or a measured file; several measured files "
-          "continue one another")
-      ->required();
-  command
-      .add_option("--column", arguments.columns,
-                  "where a signal stands in a measured file, and in which unit: NAME=HEADER or "
-                  "NAME=HEADER:UNIT, where HEADER may be the column's number; NAME is time, x_drum, v_drum, "
-                  "a_drum (up positive), the same with frame, a_left and a_right at both "
-                  "ends of the drum, F_contact (compression positive) or F_excitation (down positive); a '-' "
-                  "before the unit turns the sign")
-      ->type_name("NAME=HEADER:UNIT")
-      ->expected(1)
-      ->take_all()
-      ->group("Measured records");
-  add_roller_options(command, arguments.roller, "Measured records");
-  command
-      .add_option(
-          "--delay", arguments.delays,
-          "by how much a signal comes later than the time of its row says: 'a_frame=0.5ms'; may be given "
-          "several times")
-      ->type_name("SIGNAL=TIME")
-      ->expected(1)
-      ->take_all()
-      ->group("Measured records");
-  text_option(
-      &command, "--case", "NAME", arguments.chain_case,
-      fmt::format("case of the paper's Table 1 instead of a roller: {}", fmt::join(table1_cases, ", ")))
-      ->group("Measured records");
-  const auto of_file = [&command](const char *name, std::optional<std::string> &into, const char *help) {
-    text_option(&command, name, "WORD", into, help)->group("Measured records");
-  };
-  of_file("--separator", arguments.separator,
-          "what stands between cells: comma, semicolon, tab, bar or blank; found if not given");
-  of_file("--decimal", arguments.decimal, "decimal sign: point or comma; found if not given");
-  text_option(
-      &command, "--logger-low-pass", "HZ,ORDER", arguments.logger_low_pass,
-      "the low-pass filter of the logger: corner frequency [Hz] and order of a Butterworth filter, such "
-      "as 200,4; what it has taken is given back, and identify fits what it lets pass")
-      ->group("Measured records");
-  of_file(
-      "--piece", arguments.piece,
-      "which piece of a file that gaps, blank cells, or an exciter that is off or changes divide, counted "
-      "from 1; the longest if not given");
-  for (const RecordNumber &number : record_numbers)
-    text_option(&command, number.name, "NUMBER", arguments.*number.text, number.help)
-        ->group("Measured records");
+RecordArguments::RecordArguments(Command &of)
+    : Options(of, "Measured records"), roller(of, "Measured records") {
+  not_with(Fw, {&me_re}, "not together with --Fw, which follows from it");
+  not_with(roller.file, {&chain_case}, "without --roller, which has another machine");
 }
 
 namespace {
@@ -224,14 +131,25 @@ std::vector<std::filesystem::path> paths_of(const RecordArguments &arguments) {
 }
 
 /// The sign that a word names.
-char sign_of(const char *option, const std::string &text,
-             std::initializer_list<std::pair<const char *, char>> words) {
+char sign_of(const Text &option, std::initializer_list<std::pair<const char *, char>> words) {
   std::vector<const char *> names;
   for (const auto &[name, sign] : words) {
-    if (text == name || text == std::string(1, sign)) return sign;
+    if (*option == name || *option == std::string(1, sign)) return sign;
     names.push_back(name);
   }
-  throw UsageError(refusal(option, text, fmt::format("{}", fmt::join(names, ", "))));
+  throw option.refused(fmt::format("{}", fmt::join(names, ", ")));
+}
+
+/// Inserts what the texts of an option say. \param from_text throws std::invalid_argument with what is
+/// allowed
+template <class FromText, class Container>
+void insert_each(const Texts &option, const FromText &from_text, Container &into) {
+  for (const std::string &text : option)
+    try {
+      if (!into.insert(from_text(text)).second) throw std::invalid_argument("each signal once");
+    } catch (const std::invalid_argument &allowed) {
+      throw option.refused(text, allowed.what());
+    }
 }
 
 } // namespace
@@ -259,78 +177,48 @@ Record judged(const RecordArguments &arguments) {
   const std::vector<std::filesystem::path> paths = paths_of(arguments);
   if (arguments.separator)
     options.format.separator =
-        sign_of("--separator", *arguments.separator,
+        sign_of(arguments.separator,
                 {{"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"bar", '|'}, {"blank", ' '}});
   if (arguments.decimal)
-    options.format.decimal = sign_of("--decimal", *arguments.decimal, {{"point", '.'}, {"comma", ','}});
-  constexpr int most_pieces = 1000000;
-  if (arguments.piece) options.piece = count_option("--piece", *arguments.piece, 1, most_pieces);
-  for (const std::string &text : arguments.columns)
-    try {
-      if (!options.columns.insert(column_from_text(text)).second)
-        throw std::invalid_argument("each signal once");
-    } catch (const std::invalid_argument &allowed) {
-      throw UsageError(refusal("--column", text, allowed.what()));
-    }
-  const auto number = [&arguments](std::size_t i) -> std::optional<double> {
-    const RecordNumber &option = record_numbers[i];
-    const std::optional<std::string> &text = arguments.*option.text;
-    return text ? std::optional(number_option(option.name, *text, option.range)) : std::nullopt;
-  };
-  options.sampling_rate = number(0);
-  if (const auto frequency = number(1)) options.omega = 2.0 * pi * *frequency;
-  if (const auto phase = number(2)) options.phase = *phase * pi / 180.0;
-  options.Fw = number(3);
-  options.me_re = number(4);
-  options.m2 = number(5);
-  options.m3 = number(6);
-  options.low_pass = number(7);
-  options.corner = number(9);
+    options.format.decimal = sign_of(arguments.decimal, {{"point", '.'}, {"comma", ','}});
+  if (arguments.piece) options.piece = *arguments.piece;
+  insert_each(arguments.columns, column_from_text, options.columns);
+  insert_each(arguments.delays, delay_from_text, options.delays);
+  options.sampling_rate = arguments.sampling_rate.value();
+  if (arguments.frequency) options.omega = 2.0 * pi * *arguments.frequency;
+  if (arguments.phase) options.phase = *arguments.phase * pi / 180.0;
+  options.Fw = arguments.Fw.value();
+  options.me_re = arguments.me_re.value();
+  options.m2 = arguments.m2.value();
+  options.m3 = arguments.m3.value();
+  options.corner = arguments.corner_frequency.value();
   if (options.corner && options.omega && 2.0 * pi * *options.corner > 0.5 * *options.omega)
-    throw UsageError(refusal("--corner-frequency", *arguments.corner_frequency,
-                             "up to half the frequency of the excitation [Hz]"));
+    throw arguments.corner_frequency.refused("up to half the frequency of the excitation [Hz]");
   if (arguments.logger_low_pass) try {
       options.logger_filter = logger_filter_from_text(*arguments.logger_low_pass);
     } catch (const std::invalid_argument &allowed) {
-      throw UsageError(refusal("--logger-low-pass", *arguments.logger_low_pass, allowed.what()));
+      throw arguments.logger_low_pass.refused(allowed.what());
     }
-  for (const std::string &text : arguments.delays)
-    try {
-      if (!options.delays.insert(delay_from_text(text)).second)
-        throw std::invalid_argument("each signal once");
-    } catch (const std::invalid_argument &allowed) {
-      throw UsageError(refusal("--delay", text, allowed.what()));
-    }
-  if (const auto angle = number(8)) {
+  if (arguments.pulse_angle) {
     if (options.columns.count("pulse") == 0)
-      throw UsageError(refusal("--pulse-angle", *arguments.pulse_angle, "only with --column pulse=HEADER"));
-    options.pulse_angle = *angle * pi / 180.0;
+      throw arguments.pulse_angle.refused("only with --column pulse=HEADER");
+    options.pulse_angle = *arguments.pulse_angle * pi / 180.0;
   }
-  if (options.Fw && options.me_re)
-    throw UsageError(refusal("--me-re", *arguments.me_re, "not together with --Fw, which follows from it"));
-  if (arguments.chain_case && arguments.roller.file)
-    throw UsageError(refusal("--case", *arguments.chain_case, "without --roller, which has another machine"));
   std::optional<GivenRoller> roller = judged(arguments.roller);
   if (arguments.chain_case) add_case(*arguments.chain_case, noted_of(paths), options);
   if (roller) add_roller(*roller, noted_of(paths), options);
-  options.bond = bond_of(number(10), number(11), roller, arguments.chain_case, options);
-  if (arguments.bond_tolerance) {
-    constexpr Range range{0.0, 100.0, "%"};
-    const double tolerance = 0.01 * number_option("--bond-tolerance", *arguments.bond_tolerance, range);
-    if (options.bond) options.bond->tolerance = tolerance;
-  }
+  options.bond = bond_of(arguments, roller, options);
+  const bool of_tolerance = arguments.bond_tolerance && arguments.bond_tolerance->given();
+  if (of_tolerance && options.bond) options.bond->tolerance = 0.01 * **arguments.bond_tolerance;
   if (roller) options.ends = ends_of(*roller, arguments.exciter_shift);
-  const std::optional<double> low_pass = std::exchange(options.low_pass, std::nullopt);
   Record record = read_record(paths, options);
   if (options.logger_filter && (record.pieces.empty() || !options.omega || record.excitation_read))
-    throw UsageError(
-        refusal("--logger-low-pass", *arguments.logger_low_pass,
-                "only for a measured record without F_excitation, with --frequency or --roller"));
+    throw arguments.logger_low_pass.refused(
+        "only for a measured record without F_excitation, with --frequency or --roller");
   settle_excitation(record, options);
-  if (arguments.bond_tolerance && !record.frame_computed)
-    throw UsageError(refusal("--bond-tolerance", *arguments.bond_tolerance,
-                             "only for a measured record without the frame's acceleration"));
-  if (low_pass) filter_signals(record, *low_pass);
+  if (of_tolerance && !record.frame_computed)
+    throw arguments.bond_tolerance->refused("only for a measured record without the frame's acceleration");
+  if (arguments.low_pass) filter_signals(record, *arguments.low_pass);
   if (roller) {
     record.parameters.emplace("k23", number_text(options.bond->stiffness));
     record.parameters.emplace("c23", number_text(options.bond->damping));
@@ -344,24 +232,9 @@ Record judged(const RecordArguments &arguments) {
   return record;
 }
 
-void add_way_options(CLI::App &command, WayArguments &arguments) {
-  text_option(&command, "--from-place", "NUMBER", arguments.from,
-              "only the way from this place on [m], of a roller that drives (column s of the run)");
-  text_option(&command, "--to-place", "NUMBER", arguments.to,
-              "only the way up to this place [m], of a roller that drives");
-  text_option(&command, "--of-pass", "COUNT", arguments.pass,
-              "only this pass of a roller that drives, counted from 1; the last one if not given");
-}
-
 WayRange judged(const WayArguments &arguments) {
-  constexpr Range range{-1e6, 1e6, "m"};
-  WayRange way;
-  if (arguments.from) way.from = number_option("--from-place", *arguments.from, range);
-  if (arguments.to) way.to = number_option("--to-place", *arguments.to, range);
-  if (way.from && way.to && !(*way.from < *way.to))
-    throw UsageError(refusal("--to-place", *arguments.to, "a place beyond --from-place"));
-  constexpr int most = 65535;
-  if (arguments.pass) way.pass = count_option("--of-pass", *arguments.pass, 1, most);
+  const WayRange way{arguments.from.value(), arguments.to.value(), arguments.pass.value()};
+  if (way.from && way.to && !(*way.from < *way.to)) throw arguments.to.refused("a place beyond --from-place");
   return way;
 }
 

@@ -1,25 +1,35 @@
-#include "commands/report.h"
-
 #include "commands/commands.h"
-#include "commands/text_options.h"
+
+#include "commands/command.h"
 #include "report/report.h"
 #include "report/run_folder.h"
 #include "support/options.h"
 #include "support/progress.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <memory>
 #include <string>
 
 namespace drumlin::post {
 
-void print_report(const ReportArguments &arguments) {
+namespace {
+
+struct Arguments : Options {
+  using Options::Options;
+  Texts folders =
+      words("dir", "DIR",
+            fmt::format("run folders (with {}), studies (their pages are copied and linked), or parents of "
+                        "either",
+                        files_of_runs()));
+  ResultPath out =
+      result_folder("--out", "folder for the report; an earlier report there is replaced", "report");
+};
+
+void run(const Arguments &arguments) {
   ReportOptions options;
   for (const std::string &folder : arguments.folders)
     options.folders.push_back(path_option("DIR", folder));
-  options.out = output_folder_option("--out", arguments.out);
+  options.out = *arguments.out;
   options.version = DRUMLIN_VERSION;
   options.progress = print_progress;
   const ReportOutcome outcome = write_report(options);
@@ -35,23 +45,14 @@ void print_report(const ReportArguments &arguments) {
   fmt::print("{}\n", outcome.page.string());
 }
 
-void add_report_command(CLI::App &app, Session &) {
-  const auto arguments = std::make_shared<ReportArguments>();
-  CLI::App *report =
-      app.add_subcommand("report", "Figures, tables and checks against reference values from "
-                                   "runs of the chain, of drums with two ends, of single impacts and of a "
-                                   "roller on a bed, as pages that open from disk.");
-  report
-      ->add_option(
-          "dir", arguments->folders,
-          fmt::format(
-              "run folders (with {}), studies (their pages are copied and linked), or parents of either",
-              files_of_runs()))
-      ->type_name("DIR")
-      ->required();
-  text_option(report, "--out", "DIR", arguments->out,
-              "folder for the report; an earlier report there is replaced");
-  report->callback([arguments] { print_report(*arguments); });
+} // namespace
+
+void add_report_command(CLI::App &app, Session &session) {
+  add_command(app, session, "report",
+              "Figures, tables and checks against reference values from "
+              "runs of the chain, of drums with two ends, of single impacts and of a "
+              "roller on a bed, as pages that open from disk.",
+              run);
 }
 
 } // namespace drumlin::post

@@ -1,13 +1,11 @@
 #include "commands/roller_options.h"
 
-#include "commands/text_options.h"
 #include "engine/places.h"
 #include "support/csv.h"
 #include "support/constants.h"
 #include "support/text.h"
 #include "support/usage_error.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -61,25 +59,15 @@ std::vector<std::string> GivenRoller::lines(double g) const {
   return lines;
 }
 
-void add_roller_options(CLI::App &command, RollerArguments &arguments, const char *group) {
-  text_option(&command, "--roller", "FILE", arguments.file,
-              "masses, bond, frequency and eccentric moment of the roller that the file describes, as those "
-              "of inputs/rollers; other options, and what a run has noted, count more")
-      ->group(group);
-  text_option(&command, "--setting", "NAME", arguments.setting,
-              "setting of the roller's exciter; needed if its file has several")
-      ->group(group);
-}
-
 std::optional<GivenRoller> judged(const RollerArguments &arguments) {
   if (!arguments.file) {
-    if (arguments.setting) throw UsageError(refusal("--setting", *arguments.setting, "only with --roller"));
+    if (arguments.setting) throw arguments.setting.refused("only with --roller");
     return std::nullopt;
   }
   try {
     const std::string file = path_option("--roller", *arguments.file).string();
     GivenRoller given = {file, read_roller(file), {}};
-    given.setting = setting_of(given.machine, arguments.setting.value_or(""), file);
+    given.setting = setting_of(given.machine, arguments.setting.text(), file);
     if (arguments.is_first)
       for (const std::string &warning : given.machine.warnings)
         fmt::print(stderr, "WARNING: {}\n", warning);
@@ -103,34 +91,22 @@ std::string deck_words(const RollerArguments &arguments) {
   return words;
 }
 
-void add_drum_options(CLI::App &command, DrumArguments &arguments) {
-  text_option(&command, "--drum-radius", "NUMBER", arguments.radius,
-              "radius of the drum [m], for E_vib; not given: that of --roller");
-  text_option(&command, "--drum-width", "NUMBER", arguments.width,
-              "width of the drum [m], for E_vib; not given: that of --roller");
-  text_option(&command, "--poisson", "NUMBER", arguments.poisson,
-              fmt::format("Poisson's ratio of the soil [-], for E_vib; {} if not given", usual_poisson));
-}
-
 std::optional<LineContact> judged(const DrumArguments &arguments, const std::optional<GivenRoller> &roller) {
   std::optional<double> radius, width;
-  double poisson = usual_poisson;
-  if (arguments.poisson) poisson = number_option("--poisson", *arguments.poisson, Range{0.0, 0.5});
   if (roller) {
     width = roller->machine.width;
     if (const auto diameter = roller->machine.diameter) radius = 0.5 * *diameter;
   }
-  if (arguments.radius) radius = number_option("--drum-radius", *arguments.radius, Range{1e-3, 1e3, "m"});
-  if (arguments.width) width = number_option("--drum-width", *arguments.width, Range{1e-3, 1e3, "m"});
+  if (arguments.radius) radius = *arguments.radius;
+  if (arguments.width) width = *arguments.width;
   const bool both = radius && width;
   if ((arguments.radius || arguments.width) && !both)
     throw UsageError(refusal(radius ? "--drum-width" : "--drum-radius", "",
                              "a number [m], for E_vib needs radius and width of the drum"));
   if (arguments.poisson && !both)
-    throw UsageError(refusal("--poisson", *arguments.poisson,
-                             "only with --drum-radius and --drum-width, or a roller that has both"));
+    throw arguments.poisson.refused("only with --drum-radius and --drum-width, or a roller that has both");
   if (!both) return std::nullopt;
-  return LineContact{*radius, *width, poisson};
+  return LineContact{*radius, *width, arguments.poisson.value_or(usual_poisson)};
 }
 
 ChainParameters given_case(const std::string &name, Transition transition) {

@@ -2,24 +2,27 @@
 #pragma once
 
 #include "chain/parameters.h"
+#include "commands/command.h"
 #include "files/roller.h"
 #include "meter/values.h"
 #include "support/options.h"
+
+#include <fmt/format.h>
 
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace drumlin::post {
 
-/// The options as given.
-struct RollerArguments {
-  std::optional<std::string> file, setting;
+struct RollerArguments : Options {
+  using Options::Options;
+  Text file =
+      text("--roller", "FILE",
+           "masses, bond, frequency and eccentric moment of the roller that the file describes, as those "
+           "of inputs/rollers; other options, and what a run has noted, count more");
+  Text setting = text("--setting", "NAME", "setting of the roller's exciter; needed if its file has several");
   bool is_first = true; ///< of several readings of the file: warnings of it are told
 };
 
@@ -35,9 +38,6 @@ struct GivenRoller {
   std::vector<std::string> lines(double g) const;
 };
 
-/// Adds --roller and --setting; `arguments` must outlive the app. \param group of the help
-void add_roller_options(CLI::App &command, RollerArguments &arguments, const char *group);
-
 /// The roller, if one is given; UsageError if its file cannot be read or has no such setting.
 /// Numbers that rollers do not have are told on standard error.
 std::optional<GivenRoller> judged(const RollerArguments &arguments);
@@ -48,13 +48,17 @@ std::vector<GivenPath> files_of(const RollerArguments &arguments);
 /// The same as -var words for a deck, each after a blank.
 std::string deck_words(const RollerArguments &arguments);
 
-/// The size of the drum as given, for E_vib.
-struct DrumArguments {
-  std::optional<std::string> radius, width, poisson;
+/// The size of the drum, for E_vib.
+struct DrumArguments : Options {
+  using Options::Options;
+  Number radius = number("--drum-radius", {1e-3, 1e3, "m"},
+                         "radius of the drum [m], for E_vib; not given: that of --roller");
+  Number width = number("--drum-width", {1e-3, 1e3, "m"},
+                        "width of the drum [m], for E_vib; not given: that of --roller");
+  Number poisson =
+      number("--poisson", {0.0, 0.5},
+             fmt::format("Poisson's ratio of the soil [-], for E_vib; {} if not given", usual_poisson));
 };
-
-/// Adds --drum-radius, --drum-width and --poisson; `arguments` must outlive the app.
-void add_drum_options(CLI::App &command, DrumArguments &arguments);
 
 /// Size of the drum and Poisson's ratio of the soil, from the options, else from the roller's file; nothing
 /// if neither has radius and width.

@@ -1,6 +1,6 @@
 #include "commands/commands.h"
 
-#include "commands/text_options.h"
+#include "commands/command.h"
 #include "engine/deck_run.h"
 #include "engine/engine_command.h"
 #include "experiment/results.h"
@@ -14,14 +14,13 @@
 #include "support/options.h"
 #include "support/usage_error.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <memory>
+#include <initializer_list>
 #include <optional>
 #include <set>
 #include <string>
@@ -41,10 +40,27 @@ constexpr int most_jobs = 1000;
 constexpr int least_balls = 100;
 constexpr int most_balls = 1000000;
 
-struct Arguments {
-  std::string name;
-  std::optional<std::string> out, jobs, balls, part;
-  bool fresh = false, quick = false, keep = false, page_only = false;
+struct Arguments : Options {
+  explicit Arguments(Command &of) : Options(of) { not_with(page_only, {&part}); }
+  Text name = text("NAME", "TEXT",
+                   "one of the studies below, or the file of a plan of your own (inputs/study/plans.md)");
+  ResultPath out = result_folder("--out", "folder of the results; if not given, results/study/NAME");
+  Count jobs = count("--jobs", 1, most_jobs, "of a plan: runs at the same time, one processor each");
+  Count balls = count(
+      "--balls", least_balls, most_balls,
+      "of a plan of beds: balls of its first scene; box and roller are scaled with their root, the balls "
+      "are not");
+  Text part =
+      text("--part", "K/N",
+           "of a plan: every N-th run alone, beginning with the K-th, for a job of its own; a call without "
+           "it takes over what all parts have made, makes what is missing, and writes the page");
+  Flag page_only =
+      flag("--page-only", "of a plan: makes no run; tells which are missing, and writes the page");
+  Flag keep =
+      flag("--keep", "of a plan: keep all files of the runs that this call makes, in runs/SCENE/SEED of the "
+                     "results");
+  Flag fresh = flag("--fresh", "forget the points of an earlier call");
+  Flag quick = flag("--quick", "few points: to see that it works");
 };
 
 /// The studies of the laboratory, which a build may not have.
@@ -120,9 +136,9 @@ std::string settings_of(const Plan &plan) {
 
 StudyOptions judged(const Arguments &arguments, const std::string &name) {
   StudyOptions options;
-  options.fresh = arguments.fresh;
-  options.quick = arguments.quick;
-  options.out = output_folder_option("--out", arguments.out.value_or("results/study/" + name));
+  options.fresh = arguments.fresh.given();
+  options.quick = arguments.quick.given();
+  options.out = arguments.out ? *arguments.out : output_folder_option("--out", "results/study/" + name);
   return options;
 }
 
@@ -159,17 +175,14 @@ std::vector<ResumedFolder> hold_parts(const StudyOptions &options, const std::st
 }
 
 void run_plan(const Arguments &arguments) {
-  const fs::path file = plan_file(arguments.name);
-  const int jobs = count_option("--jobs", arguments.jobs.value_or("1"), 1, most_jobs);
-  const int balls = arguments.balls ? count_option("--balls", *arguments.balls, least_balls, most_balls) : 0;
+  const fs::path file = plan_file(arguments.name.text());
+  const int jobs = arguments.jobs.value_or(1), balls = arguments.balls.value_or(0);
   StudyOptions options = judged(arguments, study_name(file));
   std::optional<Part> part;
   if (arguments.part) {
     part = part_from_text(*arguments.part);
     options.out = folder_of(options.out, *part);
   }
-  if (part && arguments.page_only)
-    throw UsageError(refusal("--part", *arguments.part, "without --page-only"));
   check_engine_path(options.out);
   Plan plan = read_plan(file);
   std::vector<GivenPath> read = {{"NAME", file}};
@@ -179,14 +192,14 @@ void run_plan(const Arguments &arguments) {
   for (const fs::path &values : plan.files)
     read.push_back({"a file of the plan", values.is_absolute() ? values : input_file(values.string())});
   keep_apart(read, {{"--out", options.out, true}});
-  if (balls > 0 && !plan.can_be_scaled()) throw UsageError(refusal("--balls", balls, what_can_be_scaled));
+  if (balls > 0 && !plan.can_be_scaled()) throw arguments.balls.refused(what_can_be_scaled);
   if (balls > 0) plan = plan.with_balls(balls);
   if (options.quick) plan = plan.quick();
   for (const Scene &scene : plan.scenes)
     if (const std::string fault = engine_fault(engine_of(scene.deck)); !fault.empty())
       throw UsageError(fault);
   const std::string settings = settings_of(plan);
-  const RunOptions how{jobs, arguments.keep, arguments.page_only};
+  const RunOptions how{jobs, arguments.keep.given(), arguments.page_only.given()};
   if (part) {
     const ResumedFolder folder = open_study(options, settings);
     return make_part(plan, *part, options.out, how);
@@ -197,49 +210,26 @@ void run_plan(const Arguments &arguments) {
 }
 
 void run_study(const Study &study, const Arguments &arguments) {
-  const auto refuse_given = [](const char *option, const std::optional<std::string> &value) {
-    if (value) throw UsageError(refusal(option, *value, "with a study that is a plan of beds"));
-  };
-  refuse_given("--jobs", arguments.jobs);
-  refuse_given("--balls", arguments.balls);
-  refuse_given("--part", arguments.part);
-  if (arguments.page_only) throw UsageError("--page-only is given; allowed: with a study that is a plan");
-  if (arguments.keep) throw UsageError("--keep is given; allowed: with a study that is a plan");
+  for (const Option *option :
+       std::initializer_list<const Option *>{&arguments.jobs, &arguments.balls, &arguments.part})
+    if (*option) throw option->refused("with a study that is a plan of beds");
+  for (const Flag *flag : {&arguments.page_only, &arguments.keep})
+    if (*flag) throw UsageError(flag->name() + " is given; allowed: with a study that is a plan");
   const StudyOptions options = judged(arguments, study.name);
   keep_apart({}, {{"--out", options.out, true}});
   const ResumedFolder folder = open_study(options);
   study.run(options);
 }
 
+void run(const Arguments &arguments) {
+  for (const Study &study : other_studies())
+    if (arguments.name.text() == study.name) return run_study(study, arguments);
+  run_plan(arguments);
+}
+
 } // namespace
 
-void add_study_command(CLI::App &app, Session &) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App *command = app.add_subcommand(
-      "study",
-      "Measures what steps, laws and options cost and what they bring, and what differs between scenes of "
-      "a plan. An interrupted study continues where it was interrupted.");
-  command->add_option("NAME", arguments->name,
-                      "one of the studies below, or the file of a plan of your own (inputs/study/plans.md)");
-  text_option(command, "--out", "DIR", arguments->out,
-              "folder of the results; if not given, results/study/NAME");
-  text_option(command, "--jobs", "COUNT", arguments->jobs,
-              "of a plan: runs at the same time, one processor each");
-  text_option(
-      command, "--balls", "COUNT", arguments->balls,
-      "of a plan of beds: balls of its first scene; box and roller are scaled with their root, the balls "
-      "are not");
-  text_option(
-      command, "--part", "K/N", arguments->part,
-      "of a plan: every N-th run alone, beginning with the K-th, for a job of its own; a call without "
-      "it takes over what all parts have made, makes what is missing, and writes the page");
-  command->add_flag("--page-only", arguments->page_only,
-                    "of a plan: makes no run; tells which are missing, and writes the page");
-  command->add_flag("--keep", arguments->keep,
-                    "of a plan: keep all files of the runs that this call makes, in runs/SCENE/SEED of the "
-                    "results");
-  command->add_flag("--fresh", arguments->fresh, "forget the points of an earlier call");
-  command->add_flag("--quick", arguments->quick, "few points: to see that it works");
+void add_study_command(CLI::App &app, Session &session) {
   std::string footer =
       "Plans, in inputs/study/NAME/plan; those of beds and samples have 95 % confidence intervals over "
       "seeds:\n"
@@ -262,12 +252,11 @@ void add_study_command(CLI::App &app, Session &) {
       "Others:\n";
   for (const Study &study : other_studies())
     footer += fmt::format("  {:<10} {}\n", study.name, study.summary);
-  command->footer(footer);
-  command->callback([arguments] {
-    for (const Study &study : other_studies())
-      if (arguments->name == study.name) return run_study(study, *arguments);
-    run_plan(*arguments);
-  });
+  add_command(
+      app, session, "study",
+      "Measures what steps, laws and options cost and what they bring, and what differs between scenes of "
+      "a plan. An interrupted study continues where it was interrupted.",
+      run, footer);
 }
 
 } // namespace drumlin::post

@@ -1,10 +1,9 @@
-#include "commands/text_options.h"
-#include "commands/vtk.h"
+#include "commands/commands.h"
 
 #include "bed/coarse_graining.h"
 #include "bed/dump_readers.h"
 #include "bed/vtk_writers.h"
-#include "commands/commands.h"
+#include "commands/command.h"
 #include "runs/bed_files.h"
 #include "runs/chain_files.h"
 #include "support/files.h"
@@ -12,7 +11,6 @@
 #include "support/constants.h"
 #include "support/progress.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -24,7 +22,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <memory>
 #include <optional>
 #include <regex>
 #include <stdexcept>
@@ -42,8 +39,16 @@ namespace {
 /// balls in a cell.
 constexpr double default_cell = 3.0;
 
-/// Sides of cells that are not absurd, m.
-constexpr Range cell_range = {1e-9, 1e9, "m"};
+struct Arguments : Options {
+  using Options::Options;
+  Text folder = text("dir", "DIR", "folder of the run, with dump/ and parameters.csv", required);
+  ResultPath out = result_folder("--out", "folder for the results, made if missing; DIR/vtk if not given");
+  Number cell =
+      number("--cell", {1e-9, 1e9, "m"},
+             fmt::format("side of the cells of the fields [m], fitted to the bed; {:g} mean diameters "
+                         "of the soil balls if not given",
+                         default_cell));
+};
 
 /// The collections that the command writes, relative to the folder of the results.
 constexpr std::array<const char *, 3> collections = {"balls.pvd", "contacts.pvd", "fields.pvd"};
@@ -307,9 +312,8 @@ std::pair<RunParameters, Bed> read_run(const fs::path &folder, const fs::path &o
   }
 }
 
-FieldGrid grid_for(const VtkArguments &arguments, const Bed &bed) {
-  double side = default_cell * bed.mean_diameter;
-  if (arguments.cell) side = number_option("--cell", *arguments.cell, cell_range);
+FieldGrid grid_for(const Number &cell, const Bed &bed) {
+  const double side = cell.value_or(default_cell * bed.mean_diameter);
   try {
     return fitted_grid(bed.soil, side, bed.flat);
   } catch (const std::invalid_argument &fault) {
@@ -330,19 +334,17 @@ std::string scene_text(const Bed &bed, const RunParameters &run, const Sizes &si
   return scene.dump(1) + "\n";
 }
 
-} // namespace
-
-void write_vtk_series(const VtkArguments &arguments) {
-  if (arguments.cell) number_option("--cell", *arguments.cell, cell_range);
-  const fs::path folder = path_option("DIR", arguments.folder);
-  const fs::path out = output_folder_option("--out", arguments.out.value_or((folder / "vtk").string()));
+void run(const Arguments &arguments) {
+  const fs::path folder = path_option("DIR", *arguments.folder);
+  const fs::path out =
+      arguments.out ? *arguments.out : output_folder_option("--out", (folder / "vtk").string());
   std::map<long, StepDump> steps = dumped_steps(folder / "dump");
   if (steps.empty())
     throw UsageError(refusal("DIR", folder.string(),
                              "the folder of a bed run with dumps, with dump/balls_STEP.vtp or .dump"));
   const auto [parameters, bed] = read_run(folder, out, steps);
   keep_run(folder, out, steps);
-  const FieldGrid grid = grid_for(arguments, bed);
+  const FieldGrid grid = grid_for(arguments.cell, bed);
 
   std::vector<std::string> names;
   Series series;
@@ -393,21 +395,14 @@ void write_vtk_series(const VtkArguments &arguments) {
   print_summary(out, steps, series, grid);
 }
 
-void add_vtk_command(CLI::App &app, Session &) {
-  const auto arguments = std::make_shared<VtkArguments>();
-  CLI::App *vtk = app.add_subcommand("vtk", "Balls, contacts and coarse-grained fields of a bed run as time "
-                                            "series for ParaView: balls.pvd, contacts.pvd, "
-                                            "fields.pvd, from the dumps of a run with dumps.");
-  vtk->add_option("dir", arguments->folder, "folder of the run, with dump/ and parameters.csv")
-      ->type_name("DIR")
-      ->required();
-  text_option(vtk, "--out", "DIR", arguments->out,
-              "folder for the results, made if missing; DIR/vtk if not given");
-  text_option(vtk, "--cell", "NUMBER", arguments->cell,
-              fmt::format("side of the cells of the fields [m], fitted to the bed; {:g} mean diameters "
-                          "of the soil balls if not given",
-                          default_cell));
-  vtk->callback([arguments] { write_vtk_series(*arguments); });
+} // namespace
+
+void add_vtk_command(CLI::App &app, Session &session) {
+  add_command(app, session, "vtk",
+              "Balls, contacts and coarse-grained fields of a bed run as time "
+              "series for ParaView: balls.pvd, contacts.pvd, "
+              "fields.pvd, from the dumps of a run with dumps.",
+              run);
 }
 
 } // namespace drumlin::post

@@ -402,7 +402,7 @@ std::vector<std::string> demo_lines(bool with_lammps) {
   const auto add = [&](const std::string &name) {
     std::string number = std::to_string(++done);
     if (number.size() < 2) number.insert(0, " ");
-    lines.push_back("[" + number + (with_lammps ? "/27] " : "/19] ") + name);
+    lines.push_back("[" + number + (with_lammps ? "/29] " : "/21] ") + name);
   };
   for (const char *transition : {"A", "B"}) {
     add(std::string("impact, ") + transition);
@@ -417,12 +417,14 @@ std::vector<std::string> demo_lines(bool with_lammps) {
        {"bed comes to rest", "roller comes to rest", "bed, 1 cycles, A", "bed, 1 cycles, B"}) {
     add(name);
     lines.emplace_back("        drumlin/");
+    if (name[0] == 'b' && name[3] == ',') add("results/demo/bed/"); // its series for ParaView
   }
   add("regimes of the roller");
   add("what the meter says of the soil");
   add("report");
   lines.emplace_back("The report: ");
   lines.emplace_back("The bed, for ParaView: ");
+  lines.emplace_back("The commands of these steps: results/demo/commands.sh");
   return lines;
 }
 
@@ -454,6 +456,18 @@ TEST_F(FrontScript, DemoOfFewCyclesAndBalls) {
   for (const char *page : {"index.html", "bed.html", "studies/map/index.html", "studies/meter/index.html"})
     EXPECT_TRUE(fs::is_regular_file(work / "report" / page)) << page;
   EXPECT_FALSE(outcome.says("./drumlin")) << outcome.output;
+  // A user can type each command.
+  const std::string commands = post::read_text(results / "commands.sh");
+  expect_in_order(commands, {"# impact, A\ndrumlin run ", "in.impact -var out results/demo/impact/A -var transition A\n",
+                             "# report\ndrumlin report results/demo --out report\n"});
+  const fs::path written = work / "results/demo/chain/IV-B/chain.csv";
+  const std::string was = post::read_text(written);
+  fs::remove(written);
+  const std::size_t begin = commands.find("drumlin run", commands.find("# chain, case IV, B\n"));
+  std::string line = commands.substr(begin, commands.find('\n', begin) - begin);
+  line.replace(0, std::string("drumlin").size(), "'" + script.string() + "'");
+  well(run_program({"bash", "-c", line}, {}, work, 60.0));
+  EXPECT_EQ(post::read_text(written), was);
 }
 
 // The engine's output is in a file, which one line names; no run after the failed one is started.
@@ -468,7 +482,7 @@ TEST_F(FrontScript, DemoEndsAtTheFirstRunThatFails) {
   const Outcome failed = demo("echo going well; echo 'ERROR: too hot'; echo more; exit 5");
   EXPECT_EQ(failed.status, 1);
   EXPECT_EQ(failed.output.substr(failed.output.find('\n') + 1), // behind the line that says what is run
-            "[ 1/21] impact, A              failed\n"
+            "[ 1/26] impact, A              failed\n"
             "ERROR: drumlin demo: impact, A failed; its output is in "
             "results/demo/impact/A/screen.txt: ERROR: too hot\n");
   EXPECT_EQ(post::read_text(folder / "results/demo/impact/A/screen.txt"),
