@@ -9,8 +9,8 @@
 #include "support/files.h"
 #include "support/options.h"
 #include "support/process.h"
+#include "support/text.h"
 
-#include <boost/algorithm/string/split.hpp>
 #include <fmt/format.h>
 
 #include <unistd.h>
@@ -24,7 +24,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <future>
-#include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -71,8 +71,8 @@ enum class Kind {
 
 /// A step of the demo: a command that a user can type.
 struct Step {
-  std::string name;    ///< empty: the command tells of itself
-  std::string command; ///< behind `drumlin`
+  std::string name;               ///< empty: the command tells of itself
+  std::vector<std::string> words; ///< of the command, behind `drumlin`
   Kind kind = Kind::tool;
   std::string printed = {}; ///< folder of what the engine of a run prints
 };
@@ -95,9 +95,12 @@ std::vector<Step> steps_of(const Arguments &arguments, bool with_lammps) {
                          fmt::arg("bed_cycles", arguments.cycles.value_or(bed_cycles)),
                          fmt::arg("balls", balls), fmt::arg("width", number_text(width)),
                          fmt::arg("k_count", few_cycles ? 8 : 40), fmt::arg("D_count", few_cycles ? 5 : 25),
-                         fmt::arg("quick", few_cycles ? " --quick" : ""), fmt::arg("page", page_folder));
+                         fmt::arg("quick", few_cycles ? "--quick" : ""), fmt::arg("page", page_folder));
     };
-    steps.push_back({filled(name), filled(command), kind, filled(printed)});
+    Step &step = steps.emplace_back(Step{filled(name), {}, kind, filled(printed)});
+    std::istringstream words(command);
+    for (std::string word; words >> word;)
+      if (const std::string value = filled(word); !value.empty()) step.words.push_back(value);
   };
 
   // The single impact and the four cases of the paper.
@@ -154,16 +157,10 @@ std::vector<Step> steps_of(const Arguments &arguments, bool with_lammps) {
   // The regimes of the paper's roller over stiffness and damping of the soil, and what its meter says.
   add(Kind::tool, "regimes of the roller",
       "map --x k:2e6:150e6:{k_count} --y D:0.02:0.6:{D_count} --out {out}/map");
-  add(Kind::tool, "what the meter says of the soil", "study meter{quick} --out {out}/meter");
+  add(Kind::tool, "what the meter says of the soil", "study meter {quick} --out {out}/meter");
   if (drives) add(Kind::tool_of_beside, "roller over a lift", "passes {out}/drive/B");
   add(Kind::tool, "report", "report {out} --out {page}");
   return steps;
-}
-
-std::vector<std::string> words_of(const std::string &command) {
-  std::vector<std::string> words;
-  boost::split(words, command, [](char letter) { return letter == ' '; });
-  return words;
 }
 
 /// The commands as a script that a user can read, and run.
@@ -171,7 +168,10 @@ std::string script_of(const std::vector<Step> &steps) {
   std::string text = "# What the demo has run.\n";
   for (const Step &step : steps) {
     if (!step.name.empty()) text += fmt::format("\n# {}\n", step.name);
-    text += fmt::format("{} {}\n", front_command(), step.command);
+    text += front_command();
+    for (const std::string &word : step.words)
+      text += " " + shell_word(word);
+    text += "\n";
   }
   return text;
 }
@@ -202,7 +202,7 @@ public:
       switch (step.kind) {
       case Kind::tool:
         if (!step.name.empty()) print(step.name + "\n");
-        call(words_of(step.command));
+        call(step.words);
         break;
       case Kind::run:
       case Kind::run_with_progress:
@@ -222,7 +222,7 @@ public:
         const auto begin = std::chrono::steady_clock::now();
         told([this] { beside_.get(); });
         print(fmt::format(" {:5.1f} s after the other runs\n", seconds_since(begin)));
-        call(words_of(step.command));
+        call(step.words);
       }
     }
   }
@@ -247,7 +247,7 @@ private:
   double run_engine(const Step &step) const {
     const fs::path out = step.printed;
     fs::create_directories(out);
-    std::vector<std::string> words = words_of(step.command); // run DECK -var ...
+    std::vector<std::string> words = step.words; // run DECK -var ...
     const fs::path deck = words[1];
     words[0] = "-log";
     words[1] = (out / "log.liggghts").string();
