@@ -10,9 +10,9 @@
 #include "support/text.h"
 #include "support/usage_error.h"
 #include "tests/support/checks.h"
-#include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 #include "tests/support/run_folders.h"
+#include "tests/support/tool.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -51,7 +51,8 @@ void change_parameters(const fs::path &run, const std::string &from, const std::
 
 void write(const fs::path &file, const std::string &text) { std::ofstream(file, std::ios::binary) << text; }
 
-class Report : public ::testing::Test {
+/// The report of all is drawn, others are sketched.
+class Report : public WithSketches {
 protected:
   static void SetUpTestSuite() {
     root = fs::temp_directory_path() / fmt::format("drumlin-report-{}", ::getpid());
@@ -356,6 +357,7 @@ TEST_F(Report, CountsEachKindOfWorkToAnEndThatIsKnown) {
 
 // Longer than other tests: it has a line for each name, and for each place where a name is shown.
 TEST_F(Report, KeepsHostileNamesAsText) {
+  draw();
   const std::vector<std::string> names = {"100%",
                                           "%s%n",
                                           "a\"b",
@@ -424,6 +426,7 @@ TEST_F(Report, KeepsHostileNamesAsText) {
 }
 
 TEST_F(Report, PrintsNoNumberThatIsNone) {
+  draw();
   for (const auto &[name, parameter] :
        {std::pair{"no-force", &ChainParameters::Fw}, {"no-weight", &ChainParameters::g}}) {
     ChainParameters p = table1_case("II", Transition::B);

@@ -5,8 +5,8 @@
 #include "support/files.h"
 #include "support/usage_error.h"
 #include "tests/support/checks.h"
-#include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
+#include "tests/support/tool.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace drumlin::test {
 
 /// A folder for the runs, and the report of them.
-class ElementReport : public ::testing::Test {
+class ElementReport : public WithSketches {
 protected:
   /// Writes a run. \param parameters lines "name,value" \param ended their last row
   void write_run(const std::string &folder, const std::string &csv, const std::string &text,

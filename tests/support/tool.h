@@ -1,4 +1,4 @@
-// For tests that call commands of drumlin: each test has a folder of its own, in which they run.
+// For tests that write pages or call commands of drumlin, each in a folder of its own.
 #pragma once
 
 #include "tests/support/engine_runs.h"
@@ -40,8 +40,17 @@ private:
   std::string usual_;
 };
 
-/// Cases that judge pictures, one or more for each page that a command has, call draw() first.
-class Tool : public ::testing::Test {
+/// Cases that judge pictures, one or more for each page, call draw() first.
+class WithSketches : public ::testing::Test {
+protected:
+  /// From here on gnuplot draws.
+  void draw() { sketched_.reset(); }
+
+private:
+  std::optional<SketchedPictures> sketched_{std::in_place};
+};
+
+class Tool : public WithSketches {
 protected:
   /// Calls drumlin with words of which the first is the command.
   Outcome drumlin(std::vector<std::string> words) const {
@@ -54,10 +63,6 @@ protected:
     return drumlin(std::move(words));
   }
 
-  /// From here on gnuplot draws.
-  void draw() { sketched_.reset(); }
-
-  std::optional<SketchedPictures> sketched_{std::in_place};
   const Scratch scratch_;
   const std::filesystem::path folder_ = scratch_.path();
 };

@@ -12,9 +12,9 @@
 #include "support/usage_error.h"
 #include "tests/support/checks.h"
 #include "tests/support/dump_texts.h"
-#include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 #include "tests/support/run_folders.h"
+#include "tests/support/tool.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ namespace test = drumlin::test;
 namespace fs = std::filesystem;
 
 /// Six cycles at 20 Hz, of which the last four are steady.
-class BedReport : public ::testing::Test {
+class BedReport : public WithSketches {
 protected:
   BedReport() {
     write_run("A", Transition::A);
@@ -367,6 +367,7 @@ TEST_F(BedReport, ShowsSeveralSeedsAsMeanAndBand) {
 }
 
 TEST_F(BedReport, IsSoundWithBedsOnly) {
+  draw();
   write_dumps("A");
   const fs::path out = report({"A", "B"});
   const test::Parsed index = test::expect_sound_page(out, 0);
@@ -581,6 +582,7 @@ TEST_F(BedReport, DrawsOneProfileBelowADrumOfManyBalls) {
 }
 
 TEST_F(BedReport, IsMadeOfARunThatEndsAtOnce) {
+  draw();
   write_run("short", Transition::B, 6);
   std::string bed = read_text(root / "short" / "bed.csv");
   std::size_t end = 0;

@@ -1,6 +1,7 @@
 // The reports of chains: drums with two ends, and two engines compared.
 #include "tests/support/checks.h"
 #include "tests/support/page.h"
+#include "tests/support/tool.h"
 
 #include "report/chain/ends_page.h"
 #include "report/chain/engine_comparison.h"
@@ -35,7 +36,7 @@ namespace ends {
 
 namespace fs = std::filesystem;
 
-class EndsReport : public ::testing::Test {
+class EndsReport : public WithSketches {
 protected:
   void SetUp() override {
     root = fs::temp_directory_path() / fmt::format("drumlin-ends-report-{}", ::getpid());
@@ -98,6 +99,7 @@ double flight_share(const fs::path &run, long contact, int cycles) {
 // double jump with rocking, whose flights are those between the events, and whose meter values are those of
 // the meter.
 TEST_F(EndsReport, HasThePageOfDrumsWithTwoEnds) {
+  draw();
   run("lifting", 45e6, 400);
   run("unbroken", 15e6, 400);
   const fs::path out = report();

@@ -122,6 +122,7 @@ protected:
 // Three side stresses, one of them with two seeds: one soil, one line for the peak and one for the critical
 // state.
 TEST_F(CompressionReport, ShowsTheRunsOnAPageOfTheirOwn) {
+  draw();
   write_test("tests/a", 50, 1, 42);
   write_test("tests/b", 100, 1, 41);
   write_test("tests/c, of \"c\"", 100, 2, 43);
@@ -252,6 +253,7 @@ protected:
 };
 
 TEST_F(ShearReport, ShowsTheRunsOnAPageOfTheirOwn) {
+  draw();
   write_test("tests/a", 50, 1, 36);
   write_test("tests/b", 100, 1, 35);
   write_test("tests/c", 100, 2, 37);
@@ -301,6 +303,7 @@ protected:
 
 // G/G_max of a run takes the largest modulus of the sample with the same seed, not that of another one.
 TEST_F(CyclicShearReport, ShowsTheRunsOnAPageOfTheirOwn) {
+  draw();
   write_test("tests/a", 1e-5, 1, 100, 0.005, 0);
   write_test("tests/b", 1e-5, 2, 200, 0.005, 0);
   write_test("tests/c", 1e-3, 1, 40, 0.10, 1e-4);
@@ -374,6 +377,7 @@ TEST_F(OedometerReport, ReadsTheRows) {
 }
 
 TEST_F(OedometerReport, ShowsTheRunsOnAPageOfTheirOwn) {
+  draw();
   write_loads("tests/one");
   write_loads("tests/two, of \"two\"", "2e-2"); // an energy error above the criterion
   const std::string page = sound_page("tests", "oedometer", 1);
@@ -403,6 +407,7 @@ class DensityReport : public ElementReport {};
 
 // Two seeds of one soil: means of 0.50 and 0.25, and every packing in a table.
 TEST_F(DensityReport, ShowsTheLoosestAndTheDensest) {
+  draw();
   for (const char *seed : {"1", "2"})
     write_run("runs/" + std::string(seed), "density.csv",
               fmt::format("{}{}{}0.5,0.4,0.225,0.4,0.7143,0.4,0.893,3.3\n", header,
@@ -488,6 +493,7 @@ protected:
 
 // k_s is 90 kPa over 1 mm and 3 mm in the first, twice as much in the second loading.
 TEST_F(PlateReport, ShowsTheRunsOnAPageOfTheirOwn) {
+  draw();
   write_test("tests/one", 1);
   write_test("tests/two", 3, "2e-2"); // an energy error above the criterion
   const std::string page = sound_page("tests", "plate", 1);
@@ -612,6 +618,7 @@ protected:
 };
 
 TEST_F(OwnWeightReport, ShowsWallsOnAPageOfTheirOwn) {
+  draw();
   write_run("tests/a", "wall.csv", text(failing(35)), parameters(1));
   write_run("tests/b", "wall.csv", text(failing(39)), parameters(2));
   const std::string page = sound_page("tests", "wall", 1);
@@ -620,6 +627,7 @@ TEST_F(OwnWeightReport, ShowsWallsOnAPageOfTheirOwn) {
 }
 
 TEST_F(OwnWeightReport, ShowsSilosOfSeveralHeightsWithOneLineOfJanssen) {
+  draw();
   write_run("tests/a", "silo.csv", text(silo(0.8, 0.3)), parameters(1, "layers,20\n"));
   write_run("tests/b", "silo.csv", text(silo(1.0, 0.3)), parameters(2, "layers,40\n"));
   sound_page("tests", "silo", 1);
@@ -627,6 +635,7 @@ TEST_F(OwnWeightReport, ShowsSilosOfSeveralHeightsWithOneLineOfJanssen) {
 }
 
 TEST_F(OwnWeightReport, ShowsHeapsOnAPageOfTheirOwn) {
+  draw();
   std::vector<OwnWeightRow> rows = {{0, 50, 0, 50, 0, 12000, 0, 0}, {1, 50, 0, 0, 0, 12000, 5e-4, 1e-5}};
   write_run("tests/a", "repose.csv", text(rows), parameters(1));
   std::string surface = "x_m,height_m\n";

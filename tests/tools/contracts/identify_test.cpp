@@ -34,9 +34,13 @@ void write_run(const fs::path &folder, int cycles = 12) {
                      {folder / "parameters.csv", post::parameters_text(post::parameter_values(p))}});
 }
 
-/// A roller of the project, and its chain on the soil of case II by hand.
+/// A roller of the project without its tolerances, whose effect takes an identification each, and its chain
+/// on the soil of case II by hand.
 const std::vector<std::string> roller = {
-    "--roller", (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers/CA3500").string(), "--setting", "low"};
+    "--roller",       (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers/CA3500").string(),
+    "--setting",      "low",
+    "--m2-tolerance", "0",
+    "--m3-tolerance", "0"};
 post::ChainParameters low_CA3500() {
   post::ChainParameters p = post::table1_case("II", post::Transition::B);
   p.m2 = 3955;

@@ -34,9 +34,13 @@ TEST(AccuracyResults, NameEachErrorThatHasBecomeLarger) {
             Words{"II B, second, 400 steps per cycle: velocity_error 2.2e-05, known 2e-05"});
   std::vector<post::ChainPoint> measured = known;
   measured[0].errors.event_time_s = std::nan(""); // its events no longer match
+  measured[1].errors.force = 2e-3;
+  measured[1].errors.acceleration = 3e-3;
   measured[1].errors.energy = 2e-4;
   EXPECT_EQ(post::larger_errors(measured, known, true),
             (Words{"II B, second, 200 steps per cycle: event_time_error_s nan, known 1e-06",
+                   "II B, second, 400 steps per cycle: force_error 0.002, known 0.001",
+                   "II B, second, 400 steps per cycle: acceleration_error 0.003, known 0.001",
                    "II B, second, 400 steps per cycle: energy_residual 0.0002, known 0.0001"}));
 }
 
