@@ -647,7 +647,7 @@ TEST_F(Bed, EnergyErrorIsBelowAThousandthOnGroundThatAbsorbs) {
 TEST_F(Bed, EnergyErrorIsBelowAThousandthWithContactsThatYieldAndContinue) {
   for (const char *stepping : steppings) {
     const Scratch bed, stayed, left;
-    make(bed, "1", {"ball"}, {{"stepping", stepping}, {"yield", "3"}});
+    make(bed, "1", {"ball"}, {{"stepping", stepping}, {"yield", "3"}, {"ratio", "1e-2"}});
     const auto shaken = [&](const Scratch &folder, const Variables &more) {
       return well(shake(folder, with(more, {{"stepping", stepping},
                                             {"cycles", "4"},
@@ -699,7 +699,7 @@ TEST_F(Bed, OfGravelCarriesTheVibratingDrum) {
 }
 
 // A base course, the default case, carries it within 5 %; its contacts yield meanwhile.
-TEST_F(Bed, OfABaseCourseCarriesTheVibratingDrum) {
+TEST_F(Bed, OfABaseCourseCarriesTheVibratingDrum_ByNight) {
   const Scratch base, folder;
   make(base, "1", {"ball"}, {{"case", "base"}, {"ratio", "1"}});
   well(shake(folder, {{"cycles", "4"}, {"balance", "1e9"}, {"start", (base / "ball.restart").string()}}));
@@ -773,13 +773,6 @@ TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
          ranks == 1 ? std::vector{header, half, nearly, longer, damaged, other} : std::vector{half})
       refused("in.bed", {{"start", file}},
               std::string("variable start is '").append(file).append("'").append(cut), ranks);
-    refused("in.bed", {{"start", (scratch / "soil.restart").string()}},
-            ", made with bed soil; allowed: made with bed roller", ranks);
-    refused("in.bed", {{"stepping", "second"}, {"start", (scratch / "ball.restart").string()}},
-            "variable stepping is 'second'; allowed: stock, with which ", ranks);
-    refused("in.settle",
-            {{"case", "sand"}, {"balls", (scratch / "balls.data").string()}, {"bed", "x.restart"}},
-            "variable case is '", ranks);
     refused("in.place", {{"bed", (scratch / "ball.restart").string()}, {"start", "x.restart"}},
             ", made with bed roller; allowed: made with bed soil", ranks);
     refused("in.settle", {{"balls", some}, {"bed", "x.restart"}},
@@ -788,44 +781,50 @@ TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
             "variable balls is '" + none + "'; allowed: a data file with a box, atoms and their types",
             ranks);
   }
+  refused("in.bed", {{"start", (scratch / "soil.restart").string()}},
+          ", made with bed soil; allowed: made with bed roller", 1);
+  refused("in.bed", {{"stepping", "second"}, {"start", (scratch / "ball.restart").string()}},
+          "variable stepping is 'second'; allowed: stock, with which ", 1);
+  refused("in.settle", {{"case", "sand"}, {"balls", (scratch / "balls.data").string()}, {"bed", "x.restart"}},
+          "variable case is '", 1);
 }
 
+// On two ranks one value, and the bed that is not at rest; the table of refusals has the commands' other
+// rules there.
 TEST_F(Bed, RefusesValuesThatAreNotTheBedsOnRanksOneAndTwo) {
   const Scratch folder;
   const auto refused = [&folder](const char *deck, const Variables &more, const std::string &says,
-                                 int ranks) {
+                                 int ranks = 1) {
     EXPECT_TRUE(fails_with(run(bed_folder() / deck, folder, more, ranks), "ERROR: " + says)) << says;
     EXPECT_FALSE(fs::exists(folder / "bed.csv"));
   };
-  for (const int ranks : {1, 2}) {
-    for (const auto &[name, value, was] :
-         {std::array{"m2", "4000", "100"}, std::array{"k", "1e7", "1e8"}, std::array{"D", "0.1", "0.3"},
-          std::array{"friction", "0.2", "0.5"}, std::array{"rolling", "0.1", "0"},
-          std::array{"g", "1", "9.81"}, std::array{"walls", "0", "1"}, std::array{"r2", "0.2", "0.1"},
-          std::array{"k23", "1e6", "5e4"}, std::array{"case", "gravel", "loose"},
-          std::array{"tangential", "history", "coulomb"}, std::array{"dimension", "3", "2"}})
-      if (ranks == 1 || *name == 'k')
+  for (const auto &[name, value, was] :
+       {std::array{"m2", "4000", "100"}, std::array{"k", "1e7", "1e8"}, std::array{"D", "0.1", "0.3"},
+        std::array{"friction", "0.2", "0.5"}, std::array{"rolling", "0.1", "0"}, std::array{"g", "1", "9.81"},
+        std::array{"walls", "0", "1"}, std::array{"r2", "0.2", "0.1"}, std::array{"k23", "1e6", "5e4"},
+        std::array{"case", "gravel", "loose"}, std::array{"tangential", "history", "coulomb"},
+        std::array{"dimension", "3", "2"}})
+    for (const int ranks : {1, 2})
+      if (ranks == 1 || name == std::string("k"))
         refused("in.bed", {{name, value}},
                 std::string("drumlin/variable: variable ") + name + " is '" + value + "'; allowed: " + was +
                     ", with which ",
                 ranks);
-    refused("in.place",
-            {{"friction", "0.2"}, {"bed", (scratch / "soil.restart").string()}, {"start", "x.restart"}},
-            "drumlin/variable: variable friction is '0.2'; allowed: 0.5, with which ", ranks);
-    refused("in.bed", {{"boundary", "soft"}},
-            "drumlin/variable: variable boundary is 'soft'; allowed: ", ranks);
-    for (const char *name : {"ground_depth", "ground_density", "ground_cp"})
-      if (ranks == 1)
-        refused("in.bed", {{"boundary", "absorb"}, {name, "0"}},
-                std::string("drumlin/variable: variable ") + name + " is '0'; allowed: ", ranks);
-    refused("in.bed", {{"boundary", "absorb"}, {"ground_cs", "1e4"}},
-            "fix boundary/absorb: speed of shear waves is '10000 m/s'; allowed: at most", ranks);
-    refused("in.bed", {{"allow_change", "m2"}},
-            "drumlin/variables: variable allow_change is 'm2'; allowed: none, or ", ranks);
-    // Variables that may be changed take effect, so that the bed is no longer in equilibrium.
+  refused("in.place",
+          {{"friction", "0.2"}, {"bed", (scratch / "soil.restart").string()}, {"start", "x.restart"}},
+          "drumlin/variable: variable friction is '0.2'; allowed: 0.5, with which ");
+  refused("in.bed", {{"boundary", "soft"}}, "drumlin/variable: variable boundary is 'soft'; allowed: ");
+  for (const char *name : {"ground_depth", "ground_density", "ground_cp"})
+    refused("in.bed", {{"boundary", "absorb"}, {name, "0"}},
+            std::string("drumlin/variable: variable ") + name + " is '0'; allowed: ");
+  refused("in.bed", {{"boundary", "absorb"}, {"ground_cs", "1e4"}},
+          "fix boundary/absorb: speed of shear waves is '10000 m/s'; allowed: at most");
+  refused("in.bed", {{"allow_change", "m2"}},
+          "drumlin/variables: variable allow_change is 'm2'; allowed: none, or ");
+  // Variables that may be changed take effect, so that the bed is no longer in equilibrium.
+  for (const int ranks : {1, 2})
     refused("in.bed", {{"friction", "0.2"}, {"allow_change", "friction"}},
             "drumlin/settle: unbalanced ratio is '", ranks);
-  }
   well(shake(folder, {{"friction", "0.2"}, {"allow_change", "friction"}, {"balance", "1e9"}}));
   const std::string parameters = read_text(folder / "parameters.csv");
   EXPECT_TRUE(contains(parameters, {"\nfriction,0.2\n", "\nallow_change,friction\n"}));
@@ -1063,8 +1062,9 @@ protected:
 // From the same data file, with a contact history that starts at zero in both engines: the difference is
 // rounding. Over 500 steps it stays small; later the bed makes it grow.
 TEST_F(BedInLammps, GoesAsInLiggghtsOnSeveralRanksWithNewtonOffAndOn) {
-  // What ranks tell each other does not depend on the transition: without `split`, one division only. With it
-  // each number of ranks and each word for newton is tried under both schemes, with one of the two drums.
+  // What ranks tell each other does not depend on the transition: without `split`, one division only, and by
+  // day the drum of one ball. With it each number of ranks and each word for newton is tried under both
+  // schemes, with one of the two drums.
   struct Law {
     Variables variables;
     bool split;
@@ -1077,6 +1077,7 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnSeveralRanksWithNewtonOffAndOn) {
   using Divisions = std::vector<std::pair<int, const char *>>; // ranks and newton
   for (const char *drum : drums)
     for (const Law &law : laws) {
+      if (most_ranks() == 2 && !law.split && drum != drums.front()) continue;
       const Divisions divisions = !law.split ? Divisions{{2, "on"}}
                                   : std::string(drum) == "clump"
                                       ? Divisions{{1, "on"}, {2, "off"}, {4, "on"}}
@@ -1257,17 +1258,16 @@ TEST_F(BedInLammps, RefusesWhatItDoesNotHaveOnRanksOneAndTwo) {
     EXPECT_TRUE(fails_with(shake(folder, variables, ranks), says)) << says;
     EXPECT_FALSE(fs::exists(folder / "bed.csv"));
   };
-  for (const int ranks : {1, 2}) {
-    refused({{"start", "nowhere"}}, "variable start is 'nowhere'; allowed: a file that can be read", ranks);
-    refused({{"start", (files / "alone.restart").string()}},
-            ", made with engine LIGGGHTS; allowed: made with engine LAMMPS", ranks);
+  for (const int ranks : {1, 2})
     refused({{"start", (scratch / "balls.data").string()}},
             ", which is incomplete, damaged or no restart file; allowed: a restart file of "
             "drumlin/write or drumlin/run, or a data file NAME.data in the same folder",
             ranks);
-    refused({{"newton", "maybe"}}, "variable newton is 'maybe'; allowed: on or off", ranks);
-    refused({{"rest", "2"}}, "variable rest is '2'; allowed: 0 or 1", ranks);
-  }
+  refused({{"start", "nowhere"}}, "variable start is 'nowhere'; allowed: a file that can be read", 1);
+  refused({{"start", (files / "alone.restart").string()}},
+          ", made with engine LIGGGHTS; allowed: made with engine LAMMPS", 1);
+  refused({{"newton", "maybe"}}, "variable newton is 'maybe'; allowed: on or off", 1);
+  refused({{"rest", "2"}}, "variable rest is '2'; allowed: 0 or 1", 1);
 }
 
 TEST_F(BedInLammps, DumpsIntoFoldersOfAnyName) {
