@@ -11,9 +11,9 @@
 #include "support/resumed.h"
 
 #include "tests/support/checks.h"
-#include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
+#include "tests/support/tool.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -59,6 +60,7 @@ void expect_right(const CoursePoint &point) {
 
 TEST(MeterStudy, RowsAgreeWithOrbitsAndAnInterruptedCallContinues) {
   const ScratchStudy study("meter");
+  std::optional<SketchedPictures> sketched{std::in_place};
   well(study.run());
   const fs::path rows = study.out() / "records.csv";
   const CsvSchema<CoursePoint> columns = course_columns(axis, true);
@@ -73,6 +75,7 @@ TEST(MeterStudy, RowsAgreeWithOrbitsAndAnInterruptedCallContinues) {
 
   interrupt(rows);
   fs::remove(study.out() / "index.html");
+  sketched.reset(); // the second page is drawn
   well(study.run());
   EXPECT_EQ(read_points(rows, columns).size(), 8U);
   EXPECT_EQ(read_text(study.out() / "data/courses.csv"), courses);
