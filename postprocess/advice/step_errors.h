@@ -1,35 +1,30 @@
-// The errors of runs of the chain over their time steps: the rows of chain.csv and scaling.csv of the study
-// of accuracy, on which `drumlin advise` stands. Errors are relative, without unit. A number that was not
+// The errors of runs of the chain over their time steps: what `drumlin advise` reads of chain.csv and
+// scaling.csv, tables of inputs/study/accuracy/plan. Errors are relative, without unit. A number that was not
 // measured is an empty cell, NaN here.
 #pragma once
 
 #include "chain/exact_solution.h"
 #include "chain/parameters.h"
+#include "experiment/exact_quantities.h"
 #include "support/convergence.h"
 #include "support/csv_schema.h"
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace drumlin::post {
 
 /// What the chain's runs have in common.
-constexpr int accuracy_cycles = 30;  ///< of each run
-constexpr int accuracy_window = 5;   ///< the last cycles, over which errors count
-constexpr int accuracy_samples = 50; ///< rows per cycle
+constexpr int accuracy_cycles = 30;            ///< of each run
+constexpr int accuracy_window = steady_cycles; ///< the last cycles, over which errors count
+constexpr int accuracy_samples = 50;           ///< rows per cycle
 
 /// The errors of a run of the chain; NaN where they were not measured.
 struct ChainErrors {
-  double velocity;       ///< relative RMS of the drum's velocity over the window
-  double force;          ///< of the peak contact force over the window, relative
-  double acceleration;   ///< of the largest magnitude of the drum's acceleration over the window, relative
-  long events;           ///< makes and breaks in the run
-  long events_reference; ///< in the reference solution
-  double event_time_s;   ///< largest error of the time of an event; NaN if the events do not match one by one
-  double energy;         ///< energy error of the run over the work of the exciter, >= 0
-  double loop_s;         ///< time of the cycles, by the engine's clock
-  double wall_s;         ///< time of the whole process, with finding the equilibrium
+  double velocity;     ///< relative RMS of the drum's velocity over the window
+  double force;        ///< of the peak contact force over the window, relative
+  double acceleration; ///< of the largest magnitude of the drum's acceleration over the window, relative
+  double loop_s;       ///< time of the cycles, by the engine's clock
 };
 
 /// The exact solution to which the runs of a chain are compared.
@@ -45,9 +40,8 @@ struct ChainPoint {
 };
 
 /// One row of scaling.csv: a chain with random parameters, run with the number of steps that `drumlin advise`
-/// gives for it. The first three name the point.
+/// gives for it.
 struct ScalingPoint {
-  int set = 0;          ///< number of the parameter set, from 1
   std::string stepping; ///< second or stock
   double target = 0.0;  ///< error that was asked for
   ChainParameters parameters;
@@ -55,23 +49,7 @@ struct ScalingPoint {
   double error = 0.0;      ///< found: relative RMS of the drum's velocity
 };
 
-/// Digits of a measured error in files: six are more than any has.
-constexpr int error_digits = 6;
-
-/// The column "transition" of the member that `of(row)` refers to.
-template <class Row, class Of>
-CsvColumn<Row> transition_column(Of of) {
-  return {"transition", [of](const Row &row) { return transition_name(of(row)); },
-          [of](Row &row, const std::string &cell) {
-            if (cell != "A" && cell != "B") throw std::invalid_argument("A, B");
-            of(row) = transition_from_name(cell);
-          }};
-}
-
-/// Points by their steps.
-std::vector<ErrorPoint> in_order(std::vector<ErrorPoint> points);
-
-/// The columns of the files, of which the first name the point.
+/// The columns of the files, of which the first name the point, and there may be more.
 const CsvSchema<ChainPoint> &chain_points();
 const CsvSchema<ScalingPoint> &scaling_points();
 

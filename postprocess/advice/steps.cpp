@@ -186,18 +186,18 @@ std::string outside_of_tests(const ChainParameters &parameters, const std::vecto
 }
 
 std::string scaling_summary(const std::vector<ScalingPoint> &points) {
-  std::set<int> sets;
+  std::set<double> chains; // by their k
   std::size_t kept = 0;
   double worst = 0.0;
   for (const ScalingPoint &point : points) {
-    sets.insert(point.set);
+    chains.insert(point.parameters.k);
     if (point.error <= point.target) ++kept;
     worst = std::max(worst, point.error / point.target);
   }
   if (points.empty()) return "not tested on other parameter sets";
   return fmt::format("tested on {} other parameter sets: {} of {} runs kept the error asked for; the worst "
                      "had {:.2g} times as much",
-                     sets.size(), kept, points.size(), worst);
+                     chains.size(), kept, points.size(), worst);
 }
 
 } // namespace drumlin::post

@@ -6,9 +6,6 @@
 #include "experiment/results.h"
 #include "experiment/runner.h"
 #include "experiment/study.h"
-#ifdef DRUMLIN_LAB
-#include "lab/studies.h"
-#endif
 #include "map/meter_study.h"
 #include "support/files.h"
 #include "support/options.h"
@@ -17,8 +14,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
@@ -63,20 +58,13 @@ struct Arguments : Options {
   Flag quick = flag("--quick", "few points: to see that it works");
 };
 
-/// The studies of the laboratory, which a build may not have.
-constexpr std::array lab_names = {"accuracy", "timing"};
-
-/// The studies of this build that are no plans, in the order of the help.
+/// The studies that are no plans, in the order of the help.
 std::vector<Study> other_studies() {
-  std::vector<Study> studies = {
+  return {
       {"meter",
        "What the meters of rollers show on soil of 1 to 200 MN/m, where a value may mean several "
        "stiffnesses, and what identification finds in the same records. Half a minute, without an engine.",
        [](const StudyOptions &options) { run_meter_study(options.out, options.quick); }}};
-#ifdef DRUMLIN_LAB
-  studies.insert(studies.end(), lab_studies.begin(), lab_studies.end());
-#endif
-  return studies;
 }
 
 /// Names of the plans of the project.
@@ -95,9 +83,6 @@ fs::path plan_file(const std::string &name) {
   if (fs::is_regular_file(name, ignored) && ::access(name.c_str(), R_OK) == 0) return name;
   if (name == "cost" || name == "speed")
     throw UsageError(refusal("NAME", name, "timing, which measures both"));
-  if (std::find(lab_names.begin(), lab_names.end(), name) != lab_names.end())
-    throw UsageError(
-        refusal("NAME", name, "a study of the laboratory only in a build with -DDRUMLIN_LAB=ON"));
   for (const Study &study : other_studies())
     names.insert(study.name);
   throw UsageError(refusal(
@@ -115,6 +100,8 @@ std::set<fs::path> decks_of(const Plan &plan) {
   std::set<fs::path> decks;
   for (const Scene &scene : plan.scenes) {
     decks.insert(input_file(scene.deck));
+    for (const MadeFile &made : scene.made)
+      decks.insert(input_file(made.deck));
     for (const SceneDeck deck : {SceneDeck::settle, SceneDeck::place})
       if (scene.bed) decks.insert(input_file(deck_of(scene, deck)));
   }
@@ -233,6 +220,7 @@ void add_study_command(CLI::App &app, Session &session) {
   std::string footer =
       "Plans, in inputs/study/NAME/plan; those of beds and samples have 95 % confidence intervals over "
       "seeds:\n"
+      "  accuracy   error of chain and impacts over steps; `drumlin advise` answers from it\n"
       "  drive      what passes of a roller leave in a lift, and what decides it\n"
       "  base       what yield, suction and density do for a roller on a base course\n"
       "  box        what width, depth, walls and absorbing sides of the box change\n"
@@ -249,6 +237,7 @@ void add_study_command(CLI::App &app, Session &session) {
       "  stability  the longest stable time step over damping, for both integration schemes\n"
       "  stiffness  k and D that `drumlin identify` finds, over load, force and frequency\n"
       "  suction    what suction adds to the strength of a soil, in the biaxial test\n"
+      "  timing     time of a step on the chain and on beds, part by part, beside the engines' own laws\n"
       "Others:\n";
   for (const Study &study : other_studies())
     footer += fmt::format("  {:<10} {}\n", study.name, study.summary);

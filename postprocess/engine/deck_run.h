@@ -36,15 +36,12 @@ public:
   double printed(const std::string &text) const;
   /// Seconds that the last `run` of the deck took, by the engine's own clock.
   double loop_seconds() const { return printed("Loop time of "); }
-  /// Wall time of the whole process, s.
-  double wall_seconds() const { return wall_seconds_; }
 
 private:
   std::string deck_;
   TemporaryFolder temporary_;
   std::filesystem::path folder_; ///< in the temporary one, which is held: decks hold their folder, too
   Outcome outcome_;
-  double wall_seconds_ = 0.0;
 };
 
 /// inputs/NAME of the project.

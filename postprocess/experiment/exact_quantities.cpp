@@ -14,13 +14,17 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <string>
+#include <vector>
 
 namespace drumlin::post {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 class RunParameters {
 public:
@@ -39,9 +43,9 @@ private:
   std::map<std::string, std::string> texts_;
 };
 
-/// A run of the chain and its exact solution, with rows at the same times.
-struct ChainPair {
-  explicit ChainPair(const fs::path &folder) : run(read_chain(folder / "chain.csv")) {
+/// A chain with the parameters of a run, and its exact solution at the times of the rows of that run.
+struct ExactChain {
+  explicit ExactChain(const fs::path &folder) {
     const RunParameters given(folder);
     for (const ChainNumber &number : chain_numbers)
       chain.*number.value = given.number(number.name);
@@ -49,40 +53,87 @@ struct ChainPair {
     ExactOptions options;
     options.cycles = given.number("cycles");
     options.samples_per_cycle = static_cast<int>(given.number("samples_per_cycle"));
+    samples_per_cycle = static_cast<std::size_t>(options.samples_per_cycle);
     exact = solve_chain(chain, options);
-    if (run.size() != exact.history.size())
-      csv_fault(folder / "chain.csv", 0, "time", "has other rows than the exact solution");
-  }
-  double rms(const std::vector<double> &values, const std::vector<double> &reference) const {
-    return relative_rms(values, reference, 0, reference.size());
-  }
-  /// The drum's displacement from where it rests in the soil without excitation.
-  std::vector<double> from_rest(std::vector<double> x_drum) const {
-    for (double &x : x_drum)
-      x += (chain.m2 + chain.m3) * chain.g / chain.k;
-    return x_drum;
   }
   ChainParameters chain;
-  ChainHistory run;
+  std::size_t samples_per_cycle;
   ExactSolution exact;
 };
 
+/// Relative RMS error of a column of chain.csv from a row on.
+double rms_error(const fs::path &folder, const std::vector<double> &values,
+                 const std::vector<double> &reference, std::size_t from = 0) {
+  if (values.size() != reference.size())
+    csv_fault(folder / "chain.csv", 0, "time", "has other rows than the exact solution");
+  return relative_rms(values, reference, from, reference.size());
+}
+
+std::vector<double> v_drum_of(const fs::path &folder) {
+  return read_table(folder / "chain.csv").numbers("v_drum");
+}
+
 double velocity_error(const fs::path &folder) {
-  const ChainPair pair(folder);
-  return pair.rms(pair.run.v_drum, pair.exact.history.v_drum);
+  return rms_error(folder, v_drum_of(folder), ExactChain(folder).exact.history.v_drum);
+}
+
+double steady_velocity_error(const fs::path &folder) {
+  const ExactChain known(folder);
+  const std::vector<double> &reference = known.exact.history.v_drum;
+  return rms_error(folder, v_drum_of(folder), reference,
+                   reference.size() - 1 - steady_cycles * known.samples_per_cycle);
 }
 
 double way_error(const fs::path &folder) {
-  const ChainPair pair(folder);
-  return pair.rms(pair.from_rest(pair.run.x_drum), pair.from_rest(pair.exact.history.x_drum));
+  const ExactChain known(folder);
+  const ChainParameters &p = known.chain;
+  // The drum's displacement from where it rests in the soil without excitation.
+  const auto from_rest = [&p](std::vector<double> x_drum) {
+    for (double &x : x_drum)
+      x += (p.m2 + p.m3) * p.g / p.k;
+    return x_drum;
+  };
+  return rms_error(folder, from_rest(read_chain(folder / "chain.csv").x_drum),
+                   from_rest(known.exact.history.x_drum));
 }
 
 /// Largest error of the times of makes and breaks, over the period; NaN if they do not match one by one.
 double event_time_error(const fs::path &folder) {
-  const ChainPair pair(folder);
-  const EventMatch match = match_events(read_events(folder / "events.csv"), pair.exact.events);
+  const ExactChain known(folder);
+  const EventMatch match = match_events(read_events(folder / "events.csv"), known.exact.events);
   const bool all = match.matched == match.reference_count && match.run_count == match.reference_count;
-  return all ? match.largest_difference / pair.chain.period() : std::numeric_limits<double>::quiet_NaN();
+  return all ? match.largest_difference / known.chain.period() : none;
+}
+
+SteadyExtremes steady_extremes_of(const fs::path &folder, const ExactChain &known) {
+  const auto cycles = static_cast<int>(known.exact.cycles.size());
+  return steady_extremes(read_chain(folder / "chain.csv"), read_events(folder / "events.csv"),
+                         read_cycle_columns(folder / "cycles.csv"), known.chain,
+                         last_cycles_window(cycles, steady_cycles, known.chain.period()), steady_cycles);
+}
+
+template <class Of>
+double largest_of_last(const ExactChain &known, const Of &of) {
+  double most = 0.0;
+  for (std::size_t i = known.exact.cycles.size() - steady_cycles; i < known.exact.cycles.size(); ++i)
+    most = std::max(most, of(known.exact.cycles[i]));
+  return most;
+}
+
+double peak_force_error(const fs::path &folder) {
+  const ExactChain known(folder);
+  const double found = steady_extremes_of(folder, known).force.max;
+  return std::fabs(found / largest_of_last(known, [](const CycleSummary &one) { return one.F_contact_max; }) -
+                   1.0);
+}
+
+double peak_acceleration_error(const fs::path &folder) {
+  const ExactChain known(folder);
+  const auto magnitude = [](double low, double high) { return std::max(std::fabs(low), std::fabs(high)); };
+  const Extremes found = steady_extremes_of(folder, known).acceleration;
+  const double exact = largest_of_last(
+      known, [&](const CycleSummary &one) { return magnitude(one.a_drum_min, one.a_drum_max); });
+  return std::fabs(magnitude(found.min, found.max) / exact - 1.0);
 }
 
 /// Error of the drum's speed at the end of a run of chain/in.impact, over the speed of the impact.
@@ -98,38 +149,47 @@ double rebound_error(const fs::path &folder) {
   return std::fabs(history.v_drum.back() + exact.rate) / p.speed;
 }
 
-double largest_rebound_error(const fs::path &folder) { return rebound_errors(folder).worst; }
-
-} // namespace
-
-ReboundErrors rebound_errors(const fs::path &folder) {
+/// Errors of the rebounds of study/in.impacts over the speed of the impact, one for each phase of the make
+/// within a step; none if not all have a rebound.
+std::vector<double> rebound_errors(const fs::path &folder) {
   const RunParameters given(folder);
-  const double exact = closed_form_restitution(given.text("transition"), given.number("D")),
-               phases = given.number("phases");
+  const double exact = closed_form_restitution(given.text("transition"), given.number("D"));
   const std::vector<TextDump> dumps = read_text_dumps(folder / "rebound.txt");
-  if (dumps.empty() || static_cast<double>(dumps.back().rows.size()) != phases) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    return {none, none};
-  }
-  const std::size_t velocity = dumps.back().column("vz");
-  ReboundErrors errors{0.0, 0.0};
-  for (const std::vector<double> &row : dumps.back().rows) {
-    const double error = std::fabs(row[velocity] / given.number("speed") - exact);
-    errors.worst = std::max(errors.worst, error);
-    errors.rms += error * error / phases;
-  }
-  errors.rms = std::sqrt(errors.rms);
+  if (dumps.empty() || static_cast<double>(dumps.back().rows.size()) != given.number("phases")) return {};
+  std::vector<double> errors;
+  for (const std::vector<double> &row : dumps.back().rows)
+    errors.push_back(std::fabs(row[dumps.back().column("vz")] / given.number("speed") - exact));
   return errors;
 }
+
+double largest_rebound_error(const fs::path &folder) {
+  const std::vector<double> errors = rebound_errors(folder);
+  return errors.empty() ? none : *std::max_element(errors.begin(), errors.end());
+}
+
+double rms_rebound_error(const fs::path &folder) {
+  const std::vector<double> errors = rebound_errors(folder);
+  const double squares = std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0);
+  return std::sqrt(squares / static_cast<double>(errors.size())); // NaN of none
+}
+
+} // namespace
 
 const std::vector<ExactQuantity> &exact_quantities() {
   static const std::vector<ExactQuantity> all = {
       {"velocity_error", "relative RMS error of the drum's velocity", &velocity_error},
+      {"steady_velocity_error", "relative RMS error of the drum's velocity over the last five cycles",
+       &steady_velocity_error},
+      {"peak_force_error", "relative error of the peak contact force of the last five cycles",
+       &peak_force_error},
+      {"peak_acceleration_error", "relative error of the drum's peak acceleration of the last five cycles",
+       &peak_acceleration_error},
       {"way_error", "relative RMS error of the drum's way from rest", &way_error},
       {"event_time_error", "largest error of the time of an event over a cycle", &event_time_error},
       {"rebound_error", "error of the rebound over the speed of the impact", &rebound_error},
       {"largest_rebound_error", "largest error of the rebound over the speed of the impact",
        &largest_rebound_error},
+      {"rms_rebound_error", "RMS error of the rebound over the speed of the impact", &rms_rebound_error},
       {"stable_step", "longest stable w0 dt", &stable_step}};
   return all;
 }

@@ -13,11 +13,7 @@ struct ExactQuantity {
 };
 const std::vector<ExactQuantity> &exact_quantities();
 
-/// Errors of the rebound of a run of study/in.impacts over the speed of the impact, over the phases of the
-/// make within a step. NaN if it has not as many rebounds as phases.
-struct ReboundErrors {
-  double worst, rms;
-};
-ReboundErrors rebound_errors(const std::filesystem::path &folder);
+/// The last cycles of a run of the chain, over which its steady errors count.
+constexpr int steady_cycles = 5;
 
 } // namespace drumlin::post

@@ -2,6 +2,7 @@
 
 #include "pages/figure_data.h"
 #include "pages/page.h"
+#include "support/convergence.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -190,7 +192,7 @@ KnownValues known_values(const Plan &plan, const std::vector<Judged> &rows) {
   const auto add = [&](PageTable &table, std::vector<std::string> cells, const Judged &row, double error,
                        double difference, bool holds) {
     cells.push_back(fmt::format("{:.1e}", error));
-    cells.push_back(fmt::format("{:.2g}", row.expected->tolerance));
+    cells.push_back(fmt::format("{:.3g}", row.expected->tolerance));
     if (twins) cells.push_back(fmt::format("{:.1e}", difference));
     table.add(cells, holds ? RowState::agrees : RowState::differs);
   };
@@ -309,7 +311,7 @@ std::vector<const Scene *> scenes_over(const Plan &plan, const std::string &axis
 }
 
 constexpr std::array series_styles = {CurveStyle::direct_a, CurveStyle::direct_b, CurveStyle::measured_a,
-                                      CurveStyle::measured_b};
+                                      CurveStyle::measured_b, CurveStyle::series_5};
 
 /// The names of the series of some scenes, the first ones.
 std::vector<std::string> series_of(const std::vector<const Scene *> &scenes) {
@@ -326,7 +328,7 @@ std::string figure_name(const Axis &axis) { return "over_" + axis.name; }
 
 constexpr std::array published_styles = {CurveStyle::measured_a, CurveStyle::measured_b};
 constexpr std::array known_styles = {CurveStyle::condition_b, CurveStyle::condition_a, CurveStyle::limit,
-                                     CurveStyle::plain};
+                                     CurveStyle::plain, CurveStyle::line_5};
 
 /// Whether a panel has a curve of that name in its legend.
 bool shows(const Panel &panel, const std::string &name) {
@@ -382,7 +384,8 @@ Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<c
     panel.add(curve(figure_name(axis), name, "$2", "3", series_styles[s]), words);
     for (const Scene *scene : scenes)
       if (const Expected *known = known_value(*scene, quantity.name);
-          known != nullptr && scene->series == series[s] && scene->twin.empty()) {
+          known != nullptr && scene->series == series[s] && scene->twin.empty() &&
+          !(axis.is_log && known->value == 0.0)) {
         table.row(name + " known", {scene->at.at(axis.name) + aside, quantity.scale * known->value});
         up.add(quantity.scale * known->value);
         if (!shows(panel, words + ", known"))
@@ -411,6 +414,60 @@ PageFigure axis_figure(const Plan &plan, const Axis &axis, const Results &result
       figure.figure.panels.push_back(axis_panel(quantity, axis, scenes, results, plan.published, table));
   figure.csv = table.text();
   return figure;
+}
+
+/// The orders with which errors fall over the logarithmic axes, and where they keep to a value.
+PageTable order_table(const Plan &plan, const Results &results) {
+  constexpr std::array targets = {1e-2, 1e-3, 1e-4, 1e-5};
+  PageTable table(
+      "orders", "Orders of convergence",
+      "quantity | over | series | order [-] | scatter [decades] | fitted from | to | order of the "
+      "finer half [-]",
+      3);
+  for (const double target : targets)
+    table.header.push_back(fmt::format("{:g} from", target));
+  for (const Axis &axis : plan.axes) {
+    if (!axis.is_log) continue;
+    const std::vector<const Scene *> scenes = scenes_over(plan, axis.name);
+    for (const Quantity &quantity : plan.quantities) {
+      if (std::count(plan.errors.begin(), plan.errors.end(), quantity.name) == 0) continue;
+      for (const std::string &series : series_of(scenes)) {
+        std::vector<ErrorPoint> points;
+        for (const Scene *scene : scenes)
+          if (const std::vector<double> values = numbers(results.values(scene->name, quantity.name));
+              scene->series == series && !values.empty())
+            points.push_back({scene->at.at(axis.name), std::fabs(mean_interval(values).mean)});
+        if (points.empty()) continue;
+        std::sort(points.begin(), points.end(),
+                  [](const ErrorPoint &a, const ErrorPoint &b) { return a.steps < b.steps; });
+        // Coarser steps than those of an error of 1 % need not be in the asymptotic range.
+        const std::optional<double> from = steps_needed(points, targets.front());
+        const auto fit = from ? fitted_order(points, *from) : std::nullopt;
+        const auto finer = fitted_order(points, finer_half(points));
+        const auto cell = [](const auto &found, const char *form, double FittedOrder::*value) {
+          return found ? fmt::format(fmt::runtime(form), *found.*value) : std::string(no_value);
+        };
+        std::vector<std::string> row = {quantity.label,
+                                        axis.label,
+                                        series,
+                                        cell(fit, "{:.2f}", &FittedOrder::order),
+                                        cell(fit, "{:.2f}", &FittedOrder::scatter),
+                                        cell(fit, "{:g}", &FittedOrder::from),
+                                        cell(fit, "{:g}", &FittedOrder::to),
+                                        cell(finer, "{:.2f}", &FittedOrder::order)};
+        for (const double target : targets) {
+          const std::optional<double> needed = steps_needed(points, target);
+          row.push_back(needed ? fmt::format("{:g}", *needed) : fmt::format("> {:g}", points.back().steps));
+        }
+        table.add(row);
+      }
+    }
+  }
+  table.notes = {"Order: error ~ place^-order, fitted where the error is 1 % and smaller; scatter: root mean "
+                 "square distance from that line. Finer half: fitted over the finer half of the axis. Last "
+                 "columns: the smallest place from which on all larger ones have at most that error; > N: "
+                 "not at N."};
+  return table;
 }
 
 std::string effects_words(const std::vector<Effect> &effects, const std::vector<Quantity> &quantities) {
@@ -478,6 +535,10 @@ void write_experiment_page(const std::filesystem::path &out, Plan plan, const Re
     if (scenes_over(plan, axis.name).empty()) continue;
     page.section("Over " + axis.label);
     page.figure(axis_figure(plan, axis, results, ++figures));
+  }
+  if (!plan.errors.empty()) {
+    page.section("Orders of convergence");
+    page.table(order_table(plan, results));
   }
   if (!rows.empty()) {
     page.section("Known values");

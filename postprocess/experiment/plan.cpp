@@ -15,6 +15,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int most_seeds = 1000;
+constexpr int most_seeds = 1000, most_ranks = 1000;
 constexpr int quick_balls = 150, quick_seeds = 2;
 constexpr std::size_t quick_scenes = 3;
 constexpr const char *quick_cycles = "4";
@@ -144,6 +145,21 @@ struct Sweep {
       at; ///< axis -> a variable and the factor to the place
 };
 
+/// Leaves out comparisons with scenes that the plan does not have.
+void leave_out_comparisons(Plan &plan) {
+  const auto lacks = [&plan](const std::string &name) {
+    return std::none_of(plan.scenes.begin(), plan.scenes.end(),
+                        [&name](const Scene &scene) { return scene.name == name; });
+  };
+  for (Comparison &one : plan.comparisons)
+    one.pairs.erase(std::remove_if(one.pairs.begin(), one.pairs.end(),
+                                   [&](const auto &pair) { return lacks(pair.first) || lacks(pair.second); }),
+                    one.pairs.end());
+  plan.comparisons.erase(std::remove_if(plan.comparisons.begin(), plan.comparisons.end(),
+                                        [](const Comparison &one) { return one.pairs.empty(); }),
+                         plan.comparisons.end());
+}
+
 class PlanReader {
 public:
   explicit PlanReader(fs::path file) : file_(std::move(file)) {}
@@ -175,9 +191,12 @@ public:
     make_sweeps();
     for (const fs::path &file : expected_files_)
       take_expected(file);
+    for (const Bounds &bounds : bounds_)
+      take_bounds(bounds);
     make_twins();
     for (const Explicit &one : compared_)
       add_comparison(one);
+    leave_out_engines();
     if (scaled_to_ == 0) return std::move(plan_);
     if (!plan_.can_be_scaled())
       refuse("scaled_to", std::to_string(scaled_to_), what_can_be_scaled, scaled_line_);
@@ -192,6 +211,14 @@ private:
   struct Explicit {
     int line;
     std::string scene, base, words;
+  };
+  /// What a line at_most says of the table that `table` counts in the plan.
+  struct Bounds {
+    double factor;
+    std::string name; ///< of the file in the plan
+    fs::path file;
+    std::size_t table;
+    std::set<std::string> quantities; ///< which it is about
   };
   struct Keyword {
     void (PlanReader::*take)();
@@ -216,6 +243,9 @@ private:
         {"deck", {&R::take_deck, true, false}},
         {"deck_folder", {&R::take_deck_folder, true, true}},
         {"seeds", {&R::take_seeds, true, false}},
+        {"rounds", {&R::take_rounds, true, false}},
+        {"ranks", {&R::take_ranks, true, false}},
+        {"made", {&R::take_made, false, false}},
         {"seed_variable", {&R::take_seed_variable, true, false}},
         {"set", {&R::take_set, false, false}},
         {"set_settle", {&R::take_set, false, false}},
@@ -239,6 +269,9 @@ private:
         {"over", {&R::take_over, true, false}},
         {"expect", {&R::take_expect, false, false}},
         {"published", {&R::take_published, true, true}},
+        {"table", {&R::take_table, false, true}},
+        {"at_most", {&R::take_at_most, false, true}},
+        {"order", {&R::take_order, false, true}},
         {"also_in_lammps", {&R::take_also_in_lammps, true, true}},
         {"scaled_to", {&R::take_scaled_to, false, true}}};
     return all;
@@ -411,7 +444,33 @@ private:
     plan_.names_deck_folder = true;
   }
 
-  void take_seeds() { scene().seeds = count(1, most_seeds); }
+  void take_seeds() {
+    scene().seeds = count(1, most_seeds);
+    scene().rounds = false;
+  }
+  void take_rounds() {
+    scene().seeds = count(1, most_seeds);
+    scene().rounds = true;
+  }
+  void take_ranks() { scene().ranks = count(1, most_ranks); }
+
+  void take_made() {
+    constexpr const char *allowed =
+        "VARIABLE DECK OUTPUT NAME=VALUE ..., VARIABLE of the scene's deck, OUTPUT "
+        "and NAME of DECK, which makes the file";
+    const std::vector<std::string> words = words_of(value_);
+    if (words.size() < 3 || !is_name(words[0]) || !is_name(words[2])) refuse(allowed);
+    if (seen_.insert(keyword_).second) scene().made.clear(); // those of the scene above
+    MadeFile made{words[0], {}, words[2], {}};
+    for (std::size_t n = 3; n < words.size(); ++n) {
+      const std::size_t equal = words[n].find('=');
+      if (equal == std::string::npos || !is_name(words[n].substr(0, equal))) refuse(allowed);
+      made.settings.emplace_back(words[n].substr(0, equal), words[n].substr(equal + 1));
+    }
+    value_ = words[1];
+    made.deck = found_file("a deck");
+    scene().made.push_back(made);
+  }
 
   void take_seed_variable() {
     if (!is_name(value_)) refuse("the name of a variable of the deck");
@@ -423,17 +482,22 @@ private:
                                                         {"set_settle", Scope::settle},
                                                         {"set_placed", Scope::placed},
                                                         {"set_run", Scope::run}};
-    const std::vector<std::string> words = words_of(value_);
-    if (words.size() != 2 || !is_name(words[0])) refuse("NAME VALUE, a variable of the deck");
+    const std::size_t end = std::min(value_.find_first_of(blanks), value_.size());
+    const std::string name = value_.substr(0, end);
+    std::string value = trimmed(value_.substr(end));
+    const bool is_quoted = value.size() > 2 && value.front() == '"' && value.back() == '"';
+    if (is_quoted) value = value.substr(1, value.size() - 2);
+    if (!is_name(name) || value.empty() || (!is_quoted && value.find_first_of(blanks) != std::string::npos))
+      refuse("NAME VALUE, or NAME \"WORDS\": a variable of the deck");
     ++settings_;
-    if (!seen_.insert(keyword_ + " " + words[0]).second) refuse("each variable once");
+    if (!seen_.insert(keyword_ + " " + name).second) refuse("each variable once");
     const Scope scope = scopes.at(keyword_);
     for (Setting &setting : scene().settings)
-      if (setting.scope == scope && setting.name == words[0]) {
-        setting.value = words[1];
+      if (setting.scope == scope && setting.name == name) {
+        setting.value = value;
         return;
       }
-    scene().settings.push_back({scope, words[0], words[1]});
+    scene().settings.push_back({scope, name, value});
   }
 
   static constexpr Range above_zero = {1e-12, 1e18, ""};
@@ -584,6 +648,49 @@ private:
     plan_.published = points.rows(read_table(take_file()));
   }
 
+  void take_table() {
+    constexpr const char *allowed = "NAME.csv COLUMN COLUMN ..., COLUMN a quantity above, an axis above or a "
+                                    "variable of the deck, or HEADER=COLUMN";
+    const std::vector<std::string> words = words_of(value_);
+    const fs::path file = words.front();
+    if (words.size() < 2 || file.has_parent_path() || file.extension() != ".csv" ||
+        !is_name(file.stem().string()) || file == results_name)
+      refuse(allowed);
+    PlanTable table{words.front(), {}};
+    for (std::size_t n = 1; n < words.size(); ++n) {
+      const std::size_t equal = words[n].find('=');
+      const std::string name = equal == std::string::npos ? words[n] : words[n].substr(equal + 1);
+      if (!is_name(name)) refuse(allowed);
+      table.columns.push_back({words[n].substr(0, equal), name, has_quantity(name)});
+    }
+    for (const PlanTable &one : plan_.tables)
+      if (one.file == table.file) refuse("each table once");
+    plan_.tables.push_back(table);
+  }
+
+  void take_at_most() {
+    const std::vector<std::string> words = words_of(value_);
+    const double factor = any_number_from_text(words.front()).value_or(NAN);
+    const std::set<std::string> quantities(words.size() > 2 ? words.begin() + 2 : words.end(), words.end());
+    if (quantities.empty() ||
+        !std::all_of(quantities.begin(), quantities.end(),
+                     [this](const std::string &name) { return has_quantity(name); }) ||
+        !(factor > 0.0) || !std::isfinite(factor))
+      refuse("X FILE QUANTITY ..., a factor, an earlier table, and quantities of the plan");
+    value_ = words[1];
+    const fs::path file = take_file();
+    const auto table = std::find_if(plan_.tables.begin(), plan_.tables.end(),
+                                    [&](const PlanTable &one) { return one.file == file.filename(); });
+    if (table == plan_.tables.end()) refuse("a file with the name of a table above");
+    bounds_.push_back(
+        {factor, value_, file, static_cast<std::size_t>(table - plan_.tables.begin()), quantities});
+  }
+
+  void take_order() {
+    if (!has_quantity(value_)) refuse("a quantity of the plan");
+    plan_.errors.push_back(value_);
+  }
+
   void take_also_in_lammps() { plan_.between_engines = number({0.0, 1.0, ""}); }
   void take_series() { scene().series = value_; }
 
@@ -617,8 +724,10 @@ private:
       check_bed(done, refuse_scene);
     else if (done.stiffness > 0.0)
       refuse_scene("stiffness on a bed: with balls or layer");
-    else if (done.seed_variable.empty() && done.seeds > 1)
-      refuse_scene("one seed, or seed_variable, the name of the deck's variable that gets it");
+    else if (done.seed_variable.empty() && done.seeds > 1 && !done.rounds)
+      refuse_scene("one seed, rounds, or seed_variable, the name of the deck's variable that gets it");
+    if (done.rounds && (done.bed || !done.seed_variable.empty()))
+      refuse_scene("rounds without a bed and without seed_variable");
     if (!differs.empty()) plan_.comparisons.push_back({differs, {{done.name, base}}, paired_of_scene_});
   }
 
@@ -735,6 +844,41 @@ private:
     }
   }
 
+  /// Cells of which equal numbers are equal texts.
+  static std::vector<std::string> with_all_digits(std::vector<std::string> cells) {
+    for (std::string &cell : cells)
+      if (const std::optional<double> number = any_number_from_text(cell)) cell = number_text(*number);
+    return cells;
+  }
+
+  /// Expects of each scene at most so many times what an earlier table has.
+  void take_bounds(const Bounds &bounds) {
+    const PlanTable &table = plan_.tables[bounds.table];
+    std::map<std::vector<std::string>, Scene *> scenes;
+    for (Scene &scene : plan_.scenes)
+      if (const std::vector<std::string> key = Plan::key_in(table, scene); !key.empty())
+        scenes[with_all_digits(key)] = &scene;
+    const Table known = read_table(bounds.file);
+    for (std::size_t row = 0; row < known.rows(); ++row) {
+      std::vector<std::string> key;
+      for (const PlanTable::Column &column : table.columns)
+        if (!column.is_quantity) key.push_back(known.text(column.header)[row]);
+      const auto scene = scenes.find(with_all_digits(key));
+      if (scene == scenes.end())
+        csv_refusal(bounds.file, known.line(row), table.columns.front().header, key.front(),
+                    "a row of a scene of the plan");
+      for (const PlanTable::Column &column : table.columns) {
+        const std::string cell =
+            bounds.quantities.count(column.name) > 0 ? known.text(column.header)[row] : std::string();
+        if (cell.empty()) continue;
+        const double value = csv_number(bounds.file, known.line(row), column.header, cell);
+        constexpr double least = std::numeric_limits<double>::min(); // a scale of 0 would divide by it
+        scene->second->expected.push_back(
+            {column.name, 0.0, std::max(std::fabs(value), least), bounds.factor, "of " + bounds.name});
+      }
+    }
+  }
+
   /// Puts behind each scene the same in LAMMPS.
   void make_twins() {
     if (plan_.between_engines == 0.0 || !engine_fault(Engine::lammps).empty()) return;
@@ -752,6 +896,18 @@ private:
       all.push_back(twin);
     }
     plan_.scenes = std::move(all);
+  }
+
+  /// Leaves out scenes whose engine is not set up, unless all are such, which is a fault of the call.
+  void leave_out_engines() {
+    const auto fault_of = [](const Scene &scene) { return engine_fault(engine_of(scene.deck)); };
+    const auto left = std::stable_partition(plan_.scenes.begin(), plan_.scenes.end(),
+                                            [&](const Scene &scene) { return fault_of(scene).empty(); });
+    if (left == plan_.scenes.end() || left == plan_.scenes.begin()) return;
+    plan_.left_out =
+        fmt::format("{} of {} scenes: {}", plan_.scenes.end() - left, plan_.scenes.size(), fault_of(*left));
+    plan_.scenes.erase(left, plan_.scenes.end());
+    leave_out_comparisons(plan_);
   }
 
   void add_comparison(const Explicit &one) {
@@ -775,6 +931,7 @@ private:
   Scene common_;              ///< what is before the first scene
   std::vector<Sweep> sweeps_; ///< of each scene
   std::vector<fs::path> expected_files_;
+  std::vector<Bounds> bounds_;
   bool in_scene_ = false;
   bool paired_ = true, paired_of_scene_ = true;
   int scene_line_ = 0;
@@ -797,6 +954,17 @@ std::vector<Quantity> Plan::measured_in(const Scene &scene) const {
   for (const Quantity &quantity : quantities)
     if (known_value(scene, quantity.name) != nullptr || !knows(quantity.name)) measured.push_back(quantity);
   return measured;
+}
+
+std::vector<std::string> Plan::key_in(const PlanTable &table, const Scene &scene) {
+  std::vector<std::string> key;
+  for (const PlanTable::Column &column : table.columns) {
+    if (column.is_quantity) continue;
+    const auto place = scene.at.find(column.name);
+    key.push_back(place == scene.at.end() ? value_of(scene, column.name) : number_text(place->second));
+    if (key.back().empty()) return {};
+  }
+  return key;
 }
 
 const Scene &Plan::scene(const std::string &name) const {
@@ -842,23 +1010,12 @@ Plan Plan::quick() const {
   for (Scene &scene : plan.scenes) {
     scene.seeds = std::min(scene.seeds, quick_seeds);
     for (Setting &setting : scene.settings)
-      if (setting.name == "cycles")
+      if (setting.name == "cycles" && scene.expected.empty()) // known values are those of the whole run
         setting.value = quick_cycles;
       else if (setting.name == "passes")
         setting.value = "2";
   }
-  const auto is_left_out = [&plan](const std::pair<std::string, std::string> &pair) {
-    const auto has = [&plan](const std::string &name) {
-      return std::any_of(plan.scenes.begin(), plan.scenes.end(),
-                         [&name](const Scene &scene) { return scene.name == name; });
-    };
-    return !has(pair.first) || !has(pair.second);
-  };
-  for (Comparison &one : plan.comparisons)
-    one.pairs.erase(std::remove_if(one.pairs.begin(), one.pairs.end(), is_left_out), one.pairs.end());
-  plan.comparisons.erase(std::remove_if(plan.comparisons.begin(), plan.comparisons.end(),
-                                        [](const Comparison &one) { return one.pairs.empty(); }),
-                         plan.comparisons.end());
+  leave_out_comparisons(plan);
   return plan;
 }
 

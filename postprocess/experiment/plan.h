@@ -34,6 +34,20 @@ struct PublishedPoint {
   double at = 0.0, value = 0.0; ///< in the units of the axis and the quantity
 };
 
+/// The file of the results in the folder of an experiment.
+constexpr const char *results_name = "runs.csv";
+
+/// A CSV file beside it with a row for each scene.
+struct PlanTable {
+  struct Column {
+    std::string header,
+        name; ///< of a quantity, or of an axis or a variable of the deck, which tell the scene
+    bool is_quantity;
+  };
+  std::string file;
+  std::vector<Column> columns;
+};
+
 /// What Plan::can_be_scaled() asks for, in words.
 constexpr const char *what_can_be_scaled = "with a plan of beds in the plane that has stiffness and all of "
                                            "r2, r3, m2, m3, k23, c23, Fw, but no place";
@@ -48,7 +62,10 @@ struct Plan {
   double between_engines =
       0.0; ///< allowed difference of a scene in LAMMPS from the same in LIGGGHTS, over the scale of Expected
   std::vector<PublishedPoint> published;
+  std::vector<PlanTable> tables;
+  std::vector<std::string> errors; ///< quantities of which pages give the order over logarithmic axes
   std::vector<std::filesystem::path> files; ///< with known values and published points
+  std::string left_out;                     ///< why scenes are left out, in words; empty: none are
   std::string text;                         ///< of a file with this plan
   std::filesystem::path deck_folder;        ///< of decks that are not in inputs/
   bool names_deck_folder = false;           ///< whether the text does
@@ -60,6 +77,9 @@ struct Plan {
   /// The quantities that are measured in a scene: those for which it has a known value, and those for which
   /// no scene has one.
   std::vector<Quantity> measured_in(const Scene &scene) const;
+  /// The cells of a table that tell a scene from others, numbers with all digits; none if it has no value of
+  /// one of them, so that the table has no row of it.
+  static std::vector<std::string> key_in(const PlanTable &table, const Scene &scene);
   /// \pre there is one of that name
   const Scene &scene(const std::string &name) const;
   /// Whether its beds can be made smaller or larger: all are in the plane, all variables of the roller are
@@ -74,7 +94,7 @@ struct Plan {
 
 /// Reads a plan: lines `keyword value`, # begins a comment; inputs/study/plans.md has the keywords. Decks are
 /// looked for in the folder of the plan, or that of its line deck_folder, then in inputs/; so are files of
-/// known values. Scenes that are to run in LAMMPS, too, are left out where it is not set up. Throws
+/// known values. Scenes whose engine is not set up are left out if there are others. Throws
 /// UsageError "FILE, line LINE: KEYWORD is 'VALUE'; allowed: WHAT".
 Plan read_plan(const std::filesystem::path &file);
 

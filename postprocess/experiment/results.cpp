@@ -107,6 +107,30 @@ Results read_results(const std::filesystem::path &folder, const Plan &plan) {
   return Results(rows);
 }
 
+std::string table_text(const PlanTable &table, const Plan &plan, const Results &results) {
+  constexpr int digits = 6; // more than errors have
+  std::vector<std::string> header;
+  for (const PlanTable::Column &column : table.columns)
+    header.push_back(column.header);
+  std::string text = csv_line(header);
+  for (const std::string &name : results.scenes()) {
+    const std::vector<std::string> key = Plan::key_in(table, plan.scene(name));
+    if (key.empty()) continue;
+    std::vector<std::string> cells;
+    auto next = key.begin();
+    for (const PlanTable::Column &column : table.columns) {
+      if (!column.is_quantity) {
+        cells.push_back(*next++);
+        continue;
+      }
+      const std::vector<double> values = numbers(results.values(name, column.name));
+      cells.push_back(values.empty() ? "" : number_text(mean_interval(values).mean, digits));
+    }
+    text += csv_line(cells);
+  }
+  return text;
+}
+
 std::vector<double> numbers(const std::map<int, double> &by_seed) {
   std::vector<double> all;
   all.reserve(by_seed.size());

@@ -13,8 +13,7 @@
 
 namespace drumlin::post {
 
-/// The file of the results in the folder of an experiment, and the copy of its plan.
-constexpr const char *results_name = "runs.csv";
+/// The copy of the plan in the folder of an experiment.
 constexpr const char *plan_name = "plan";
 
 /// A row of the file: one quantity of one run. The first three name it.
@@ -51,6 +50,9 @@ private:
 /// The results in the folder of an experiment. Throws std::runtime_error as read_points(), and for a value in
 /// another unit than that of the plan.
 Results read_results(const std::filesystem::path &folder, const Plan &plan);
+
+/// The text of a table of the plan: means over the seeds, empty where a scene has none.
+std::string table_text(const PlanTable &table, const Plan &plan, const Results &results);
 
 /// The numbers of a map by seed, in its order.
 std::vector<double> numbers(const std::map<int, double> &by_seed);

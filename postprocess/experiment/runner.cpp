@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Scenes on one soil and a seed: they run one after the other, and the first of them makes the soil.
+/// Scenes on one soil and a seed, of which the first makes the soil, or scenes of a round: they run one after
+/// the other.
 struct Group {
   std::vector<const Scene *> scenes;
   int seed;
@@ -39,7 +40,8 @@ std::vector<Group> groups_of(const Plan &plan, const Part &part) {
   std::vector<std::vector<const Scene *>> soils;
   for (const Scene &scene : plan.scenes) {
     const auto same = std::find_if(soils.begin(), soils.end(), [&scene](const auto &soil) {
-      return scene.bed && soil.front()->bed && soil_text(*soil.front()) == soil_text(scene);
+      return (scene.rounds && soil.front()->rounds) ||
+             (scene.bed && soil.front()->bed && soil_text(*soil.front()) == soil_text(scene));
     });
     if (same == soils.end())
       soils.push_back({&scene});
@@ -207,6 +209,7 @@ void throw_if_any(const std::vector<std::string> &failures, const char *told) {
 
 void run_experiment(const Plan &plan, const fs::path &out, const RunOptions &options) {
   write_files({{out / plan_name, plan.copy()}});
+  if (!plan.left_out.empty()) fmt::print("SKIPPED: {}\n", plan.left_out);
   Runs runs(plan, out, {}, options.keep);
   if (fs::is_directory(out / parts_name))
     for (const fs::directory_entry &part : fs::directory_iterator(out / parts_name))
@@ -217,6 +220,8 @@ void run_experiment(const Plan &plan, const fs::path &out, const RunOptions &opt
     for (const std::string &name : runs.missing())
       fmt::print("missing: {}\n", name);
   const Results results = read_results(out, plan);
+  for (const PlanTable &table : plan.tables)
+    write_files({{out / table.file, table_text(table, plan, results)}});
   write_experiment_page(out, plan, results, failures);
   fmt::print("{}\n", (out / "index.html").string());
   throw_if_any(failures, "the page tells which");

@@ -23,6 +23,7 @@ struct RunOptions {
 ///   plan        a copy of the plan
 ///   beds/       restart files of the beds
 ///   runs.csv    values of each run, and its processor time
+///   NAME.csv    tables of the plan
 ///   index.html  tables and figures
 ///   runs/       if `keep`: the files of each run, in a folder for its scene and seed
 /// Runs of parts that make_part() has made in its folder `parts` are taken over. A run that fails does not

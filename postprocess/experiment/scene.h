@@ -51,6 +51,13 @@ struct Expected {
   std::string scale_of = {}; ///< the scene whose value is the scale; empty: none
 };
 
+/// A file that a scene reads, made by another deck before.
+struct MadeFile {
+  std::string variable;     ///< of the scene's deck, that names the file
+  std::string deck, output; ///< the deck that makes it, and its variable that names it
+  Variables settings;       ///< of that deck, besides the files above
+};
+
 struct Scene {
   std::string name; ///< without commas
   std::string deck; ///< relative to inputs/, or absolute
@@ -58,6 +65,9 @@ struct Scene {
   std::vector<Setting> settings = {}; ///< each name once for each scope
   std::string seed_variable = {};     ///< the deck's variable that gets the seed; of a bed none
   int seeds = 1;
+  bool rounds = false; ///< whether the seeds are rounds, in which scenes run in turn: the same run again
+  int ranks = 1;
+  std::vector<MadeFile> made = {}; ///< in the order in which they are made
 
   // Rules that give variables which `settings` do not have.
   double stiffness =

@@ -1,6 +1,7 @@
 #include "experiment/scene_run.h"
 
 #include "engine/engine_command.h"
+#include "support/csv.h"
 #include "support/files.h"
 #include "support/progress.h"
 #include "support/resumed.h"
@@ -34,9 +35,31 @@ void publish(const Scene &scene, const fs::path &finished, const fs::path &file)
   fs::rename(finished, file);
 }
 
+/// The text of cost.csv. A deck without a line `run` has no loop.
+std::string cost_text(const DeckRun &run) {
+  const std::string loop = run.outcome().says("Loop time of ") ? number_text(run.loop_seconds()) : "";
+  return "loop [s],processor [s],memory [B]\n" +
+         csv_line({loop, number_text(run.outcome().cpu_seconds), number_text(run.outcome().peak_bytes)});
+}
+
 void remove_bed(const fs::path &file) {
   fs::remove(file);
   fs::remove(data_of(file));
+}
+
+/// A file that a scene reads, in the folder `beds` of `out`; made if an earlier call did not finish it.
+fs::path made_file(const MadeFile &made, const Variables &above, const fs::path &out) {
+  const Variables variables = joined(made.settings, above);
+  const fs::path folder = bed_folder(out);
+  fs::path done =
+      folder / fmt::format("{}_{}", made.variable, fingerprint(made.deck + " " + words_of(variables)));
+  if (fs::exists(done)) return done;
+  const TemporaryFolder unfinished(folder, "unfinished.");
+  const fs::path file = unfinished.path() / "made";
+  print_progress(fmt::format("making {} by {}", done.filename().string(), made.deck));
+  DeckRun(made.deck, joined(variables, {{made.output, file.string()}})).must_succeed();
+  fs::rename(file, done);
+  return done;
 }
 
 } // namespace
@@ -86,11 +109,15 @@ fs::path placed_roller(const Scene &scene, int seed, const fs::path &out, Soil k
 }
 
 std::unique_ptr<DeckRun> run_scene(const Scene &scene, int seed, const fs::path &out, Soil soil) {
-  Variables variables = variables_of(scene, SceneDeck::run);
+  Variables files;
+  for (const MadeFile &made : scene.made)
+    files.emplace_back(made.variable, made_file(made, files, out).string());
+  Variables variables = joined(variables_of(scene, SceneDeck::run), files);
   if (scene.bed) variables.emplace_back("start", placed_roller(scene, seed, out, soil).string());
   if (!scene.seed_variable.empty()) variables.emplace_back(scene.seed_variable, std::to_string(seed));
-  auto run = std::make_unique<DeckRun>(scene.deck, variables);
+  auto run = std::make_unique<DeckRun>(scene.deck, variables, scene.ranks);
   run->must_succeed();
+  write_files({{run->file(cost_name), cost_text(*run)}});
   return run;
 }
 

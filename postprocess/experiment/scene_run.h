@@ -26,6 +26,10 @@ std::string placed_name(const Scene &scene, int seed);
 std::filesystem::path placed_roller(const Scene &scene, int seed, const std::filesystem::path &out,
                                     Soil soil);
 
+/// The file that run_scene() adds to those of a run: seconds in the engine's loop, processor time, memory of
+/// the rank with the largest.
+constexpr const char *cost_name = "cost.csv";
+
 /// Runs the scene's deck for a seed, on its bed if it has one. Throws as DeckRun::must_succeed().
 std::unique_ptr<DeckRun> run_scene(const Scene &scene, int seed, const std::filesystem::path &out, Soil soil);
 

@@ -59,14 +59,6 @@ std::vector<Point> read_points(const std::filesystem::path &file, const CsvSchem
   return points;
 }
 
-/// The point among `points` with the same key as `like`; nullptr if there is none.
-template <class Point>
-const Point *find_point(const std::vector<Point> &points, const CsvSchema<Point> &schema, const Point &like) {
-  for (const Point &point : points)
-    if (schema.key(point) == schema.key(like)) return &point;
-  return nullptr;
-}
-
 /// The points of a call that are finished: a CSV file, each row written when it is known. Rows that
 /// finished_rows() leaves out are removed, so that their points are measured again. The caller asks for all
 /// points in the order of the call, by has(), so that finish() can tell rows that do not belong to the call,

@@ -164,8 +164,78 @@ TEST(OwnStudy, FailsWhereAKnownValueIsNotMet) {
   }
 }
 
+// Heights in proportion to a factor: an error of order -1.
+TEST(OwnStudy, WritesTablesAndOrdersAndComparesWithAnEarlierTable) {
+  const Scratch scratch;
+  const std::string plan = "title T\nquantity height m last out.csv height\n"
+                           "quantity loop s last cost.csv loop [s]\n"
+                           "quantity memory B last cost.csv memory [B]\nlog_axis share 1/factor\n"
+                           "order height\ntable heights.csv share seed factor=factor high=height loop\n"
+                           "deck in.own\nset seed 1\n";
+  const std::string scenes =
+      "scene a\nover factor 1 0.5 0.25 0.0625 0.03125\nat share factor\nscene without place\nset factor 3\n";
+  post::write_files({{scratch / "in.own", own_deck}, {scratch / "heights.plan", plan + scenes}});
+  const auto run = [&] {
+    return run_program({DRUMLIN_TOOLS, "study", "heights.plan", "--fresh"}, {}, scratch.path(), 100.0);
+  };
+  const Outcome first = run();
+  ASSERT_TRUE(first.ok()) << first.output;
+  const fs::path out = scratch / "results/study/heights";
+  EXPECT_EQ(post::read_text(out / "heights.csv"),
+            "share,seed,factor,high,loop\n1,1,1,10,\n0.5,1,0.5,5,\n0.25,1,0.25,2.5,\n"
+            "0.0625,1,0.0625,0.625,\n0.03125,1,0.03125,0.3125,\n"); // the deck has no loop
+  const post::Table orders = post::read_table(out / "data/orders.csv");
+  ASSERT_EQ(orders.rows(), 1U);
+  EXPECT_EQ(orders.text("order of the finer half [-]")[0], "-1.00");
+  EXPECT_GT(values_in(out).at({"a: factor 1", 1, "memory"}), 1e6); // no process of an engine is smaller
+
+  fs::copy_file(out / "heights.csv", scratch / "heights.csv");
+  const auto at_most = [&](const char *factor) {
+    post::write_files(
+        {{scratch / "heights.plan", plan + fmt::format("at_most {} heights.csv height\n", factor) + scenes}});
+    return run();
+  };
+  EXPECT_TRUE(at_most("1.001").ok());
+  EXPECT_TRUE(at_most("0.999").says("ERROR: drumlin study: 5 of 5 known values are not met"));
+}
+
+// Scenes run in turn, on a file that a deck has made once, each on its ranks.
+TEST(OwnStudy, AlternatesScenesInRoundsOnAFileThatADeckMakes) {
+  const Scratch scratch;
+  post::write_files(
+      {{scratch / "bed.plan",
+        "title T\nquantity end m last end.csv height_m\nquantity loop s last cost.csv loop [s]\n"
+        "deck study/in.cost_bed\nrounds 2\nset steps 20\n"
+        "made data study/in.cost_bed data from=lattice columns=20 rows=6 steps=500\n"
+        "scene one\nscene two\nfrom one\ndiffers ranks\nranks 2\n"
+        "set law \"hooke/transition tangential history stepping stock damping coefficient\"\n"}});
+  const auto run = [&] {
+    return run_program({DRUMLIN_TOOLS, "study", "bed.plan", "--keep"}, {}, scratch.path(), 100.0);
+  };
+  const Outcome outcome = run();
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  std::size_t last = 0;
+  for (const char *line :
+       {"[1/4] seed 1, one", "[2/4] seed 1, two", "[3/4] seed 2, one", "[4/4] seed 2, two"}) {
+    EXPECT_NE(outcome.output.find(line, last), std::string::npos) << line << "\n" << outcome.output;
+    last = outcome.output.find(line);
+  }
+  const fs::path out = scratch / "results/study/bed";
+  EXPECT_TRUE(fs::exists(made_file(out / "beds", "data_", "")));
+  const auto ranks = [&](const char *scene) {
+    const std::string screen = post::read_text(out / "runs" / scene / "1/screen.txt");
+    return screen.find(" on 2 procs for 20 steps") != std::string::npos ? 2 : 1;
+  };
+  EXPECT_EQ(ranks("1_one"), 1);
+  EXPECT_EQ(ranks("2_two"), 2);
+  const Values values = values_in(out);
+  EXPECT_GT(values.at({"two", 2, "loop"}), 0.0);
+  EXPECT_EQ(values.at({"one", 1, "end"}), values.at({"one", 2, "end"}));
+  EXPECT_FALSE(run().says("making")); // once
+}
+
 TEST(StudiesWithKnownValues, MeetThemInTheirFirstScenes) {
-  for (const char *name : {"benchmarks", "extremes", "stability"}) {
+  for (const char *name : {"accuracy", "benchmarks", "extremes", "stability"}) {
     const ScratchStudy study(name);
     const Outcome outcome = study.run();
     ASSERT_TRUE(outcome.ok()) << outcome.output;
@@ -484,6 +554,35 @@ TEST(BedStudy, RunsEverySceneOfTheProjectsPlans) {
         run_program({DRUMLIN_TOOLS, "study", std::string(study) + ".plan", "--balls", "100", "--jobs", "2"},
                     {}, scratch.path(), 250.0);
     EXPECT_TRUE(outcome.ok()) << outcome.output;
+  }
+}
+
+// The laws of a scene do the same work, on one rank and on two: they end with the balls at the same height.
+TEST(TimingStudy, RunsEverySceneOfItsPlan) {
+  const Scratch scratch;
+  std::string plan = post::read_text(post::input_file("study/timing/plan"));
+  for (const auto &[long_one, short_one] :
+       {std::pair{"rounds +[0-9]+", "rounds 1"},
+        {"set +steps +[0-9]+", "set steps 50"},
+        {"columns=100 layers=1 rows=26 steps=30000", "columns=20 layers=1 rows=6 steps=2000"},
+        {"columns=40 layers=40 rows=21 steps=15000", "columns=6 layers=6 rows=5 steps=1000"},
+        {"copies_x=4 copies_y=2", "copies_x=2 copies_y=1"}})
+    plan = std::regex_replace(plan, std::regex(long_one), short_one);
+  post::write_files({{scratch / "timing.plan", plan}});
+  const Outcome outcome = run_program({DRUMLIN_TOOLS, "study", "timing.plan"}, {}, scratch.path(), 500.0);
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  const auto family = [](const std::string &scene) { return scene.substr(0, scene.find(':')); };
+  std::map<std::string, std::map<std::string, double>> ends;
+  for (const auto &[run, value] : values_in(scratch / "results/study/timing"))
+    if (std::get<2>(run) == "end") ends[family(std::get<0>(run))][std::get<0>(run)] = value;
+  ASSERT_EQ(ends.size(), 5U);
+  // Over many jumps of the force rounding grows on the chain. LAMMPS's law has the dashpot of each pair.
+  EXPECT_NEAR(ends["chain"]["chain: stock"], ends["chain"]["chain: engine law"], 1e-4);
+  EXPECT_NEAR(ends["bed 2500"]["bed 2500: stock"], ends["bed 2500"]["bed 2500: engine law"], 1e-6);
+  for (const char *bed : {"bed 2500 with coulomb", "bed 32000", "bed 256000"}) {
+    EXPECT_EQ(ends[bed].size(), post::has_lammps() ? 12U : 6U);
+    for (const auto &[scene, end] : ends[bed])
+      EXPECT_NEAR(end, ends[bed].begin()->second, 1e-5) << scene;
   }
 }
 

@@ -172,6 +172,43 @@ TEST_F(PlanTest, TakesKnownValuesAndPublishedPointsFromFiles) {
   refused("a,gap,3,0,1,s", "'value' is '3'; allowed: a number, with a scale above zero and a tolerance");
 }
 
+TEST_F(PlanTest, ExpectsOfEachSceneAtMostWhatAnEarlierTableHas) {
+  const std::string own = "title T\nquantity gap m last out.csv gap\nquantity time s last out.csv t\n"
+                          "log_axis size 2 x\ndeck in.own\norder gap\n"
+                          "table found.csv x size width=gap time\n";
+  const std::string scenes = "scene a\nover x 1 2\nat size x*2\nscene no size\nset x 1\n";
+  const auto earlier = [this](const std::string &rows) {
+    post::write_files({{temporary_.path() / "found.csv", "x,size,width,time\n" + rows}});
+  };
+  earlier("2.0,4,-3,1\n1,2,,\n");
+  const Plan plan = read(own + "at_most 1.5 found.csv gap\n" + scenes);
+  EXPECT_TRUE(plan.scenes[0].expected.empty()); // it had no value
+  ASSERT_EQ(plan.scenes[1].expected.size(), 1U);
+  const post::Expected &expected = plan.scenes[1].expected[0];
+  EXPECT_EQ(expected.value, 0.0);
+  EXPECT_EQ(expected.scale, 3.0);
+  EXPECT_EQ(expected.tolerance, 1.5);
+  EXPECT_EQ(expected.source, "of found.csv");
+  EXPECT_EQ(plan.errors, std::vector<std::string>{"gap"});
+  EXPECT_TRUE(Plan::key_in(plan.tables.at(0), plan.scenes[2]).empty());
+  EXPECT_EQ(Plan::key_in(plan.tables[0], plan.scenes[1]), (std::vector<std::string>{"2", "4"}));
+
+  earlier("3,6,1,1\n");
+  try {
+    read(own + "at_most 1.5 found.csv gap\n" + scenes);
+    ADD_FAILURE() << "a row of no scene";
+  } catch (const std::runtime_error &error) {
+    EXPECT_NE(std::string(error.what()).find("'x' is '3'; allowed: a row of a scene of the plan"),
+              std::string::npos)
+        << error.what();
+  }
+  for (const char *text : {"0 found.csv gap", "1.5 found.csv", "1.5 found.csv x"})
+    expect_refused(fmt::format("{}at_most {}\n{}", own, text, scenes),
+                   fmt::format(", line 8: at_most is '{}'; allowed: X FILE QUANTITY ...", text));
+  expect_refused("title T\nquantity gap m last out.csv gap\nat_most 1 found.csv gap\n",
+                 ", line 3: at_most is 'found.csv'; allowed: a file with the name of a table above");
+}
+
 TEST_F(PlanTest, RunsScenesInLammpsTooWhereItIsSetUp) {
   post::write_files({{temporary_.path() / "in.own.lammps", "print \"${x}\"\n"}});
   const Plan plan = read("title T\nquantity gap m last out.csv gap\ndeck in.own\nalso_in_lammps 1e-9\n"
@@ -188,6 +225,18 @@ TEST_F(PlanTest, RunsScenesInLammpsTooWhereItIsSetUp) {
   fs::remove(temporary_.path() / "in.own.lammps");
   expect_refused("title T\nquantity gap m last out.csv gap\ndeck in.own\nalso_in_lammps 1e-9\nscene a\n",
                  ": also_in_lammps is '1e-09'; allowed: with a deck in.own.lammps");
+}
+
+TEST_F(PlanTest, LeavesOutScenesWhoseEngineIsNotSetUp) {
+  post::write_files({{temporary_.path() / "in.own.lammps", "print \"${x}\"\n"}});
+  const std::string own = "title T\nquantity gap m last out.csv gap\nset x \"1 2\"\nrounds 3\n";
+  const Plan plan = read(own + "deck in.own\nscene a\nscene b\nfrom a\ndiffers engine\ndeck in.own.lammps\n");
+  EXPECT_EQ(post::value_of(plan.scenes[0], "x"), "1 2");
+  EXPECT_TRUE(plan.scenes[0].rounds && plan.scenes[0].seeds == 3);
+  EXPECT_EQ(plan.scenes.size(), post::has_lammps() ? 2U : 1U);
+  EXPECT_EQ(plan.comparisons.size(), plan.scenes.size() - 1);
+  EXPECT_EQ(plan.left_out.empty(), post::has_lammps());
+  EXPECT_EQ(read(own + "deck in.own.lammps\nscene b\n").scenes.size(), 1U); // which the study refuses
 }
 
 TEST_F(PlanTest, ReadsWhatEditorsOfWindowsWrite) {
@@ -328,7 +377,7 @@ TEST_F(PlanTest, RefusesEachBadLine) {
   expect_refused("title T\n", ": quantity is ''; allowed: a line for each");
   expect_refused(own, ": scene is ''; allowed: a line for each");
   expect_refused(own + "ball 5\n",
-                 ", line 4: the keyword is 'ball'; allowed: about, also_in_lammps, at, axis, balls, ");
+                 ", line 4: the keyword is 'ball'; allowed: about, also_in_lammps, at, at_most, axis, ");
   expect_refused(own + "note that &\n",
                  ", line 4: the last line is 'note that &'; allowed: a line below one that ends with &");
   expect_refused(own + "seeds\n", ", line 4: seeds is ''; allowed: a value after it");
@@ -393,6 +442,12 @@ TEST_F(PlanTest, RefusesEachBadLine) {
                                file));
   expect_refused("title T\nquantity k\nquantity k\n",
                  ", line 3: quantity is 'k'; allowed: each quantity once");
+  for (const char *text : {"a.csv", "a.txt x", "b/a.csv x", "runs.csv x", "a.csv x=", "a.csv x y-z"})
+    expect_refused(fmt::format("{}table {}\n", own, text),
+                   fmt::format(", line 4: table is '{}'; allowed: NAME.csv COLUMN COLUMN", text));
+  expect_refused(own + "table a.csv x\ntable a.csv y\n",
+                 ", line 5: table is 'a.csv y'; allowed: each table once");
+  expect_refused(own + "order height\n", ", line 4: order is 'height'; allowed: a quantity of the plan");
   expect_refused("title T\naxis load\n", ", line 2: axis is 'load'; allowed: NAME LABEL");
   expect_refused("title T\naxis a x [m]\naxis a y [m]\n",
                  ", line 3: axis is 'a y [m]'; allowed: each axis once");
@@ -408,11 +463,19 @@ TEST_F(PlanTest, RefusesEachBadLine) {
                  ", line 3: scene is 'a'; allowed: with a line deck");
   expect_refused(own + "set gap\n", ", line 4: set is 'gap'; allowed: NAME VALUE");
   expect_refused(own + "set gap 1 2\n", ", line 4: set is 'gap 1 2'; allowed: NAME VALUE");
+  for (const char *text : {"a in.own", "a in.own b c", "a in.own b =1", "a in.own b-c"})
+    expect_refused(fmt::format("{}made {}\n", own, text),
+                   fmt::format(", line 4: made is '{}'; allowed: VARIABLE DECK OUTPUT NAME=VALUE ...", text));
+  expect_refused(own + "made a in.other b\n",
+                 ", line 4: made is 'in.other'; allowed: a deck in the folder of the plan, or in ");
+  expect_refused(own + "seed_variable seed\nrounds 2\nscene a\n",
+                 ", line 6: scene is 'a'; allowed: rounds without a bed and without seed_variable");
   expect_refused(own + "set g-p 1\n", ", line 4: set is 'g-p 1'; allowed: NAME VALUE");
   expect_refused(own + "set gap 1\nset gap 2\n", ", line 5: set is 'gap 2'; allowed: each variable once");
   expect_refused(own + "seed_variable a b\n",
                  ", line 4: seed_variable is 'a b'; allowed: the name of a variable");
-  expect_refused(own + "seeds 2\nscene a\n", ", line 5: scene is 'a'; allowed: one seed, or seed_variable");
+  expect_refused(own + "seeds 2\nscene a\n",
+                 ", line 5: scene is 'a'; allowed: one seed, rounds, or seed_variable");
   expect_refused(own + "stiffness 1e9\nscene a\n",
                  ", line 5: scene is 'a'; allowed: stiffness on a bed: with balls or layer");
   expect_refused(own + "scene a\nset_placed x 1\n",

@@ -1,9 +1,11 @@
 #include "advice/bed.h"
 #include "advice/steps.h"
 #include "engine/deck_run.h"
+#include "experiment/plan.h"
 #include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "support/resumed.h"
 #include "support/usage_error.h"
 
 #include "tests/support/checks.h"
@@ -284,6 +286,26 @@ TEST(Advice, ForAMeasuredChainComesFromItsOwnCurve) {
   EXPECT_EQ(advise(request, power_laws()).steps_per_cycle, 3200);
 }
 
+// The chains that were drawn at random run with the steps that the committed curves give, else the study of
+// accuracy would not test them.
+TEST(Advice, IsWhatThePlanOfAccuracyRuns) {
+  const std::vector<ChainPoint> known = read_points(input_file("study/accuracy/chain.csv"), chain_points());
+  std::size_t chains = 0;
+  for (const Scene &scene : read_plan(input_file("study/accuracy/plan")).scenes) {
+    if (scene.at.count("target_error") == 0) continue;
+    AdviceRequest request;
+    for (const ChainNumber &number : chain_numbers)
+      request.parameters.*number.value = number_from_text(value_of(scene, number.name));
+    request.parameters.transition = transition_from_name(value_of(scene, "transition"));
+    request.stepping = value_of(scene, "stepping");
+    request.error = scene.at.at("target_error");
+    EXPECT_EQ(std::to_string(advise(request, known).steps_per_cycle), value_of(scene, "steps_per_cycle"))
+        << scene.name;
+    ++chains;
+  }
+  EXPECT_EQ(chains, 36U);
+}
+
 TEST(Advice, ForOtherChainsHasAMargin) {
   AdviceRequest request;
   request.parameters = table1_case("II", Transition::B);
@@ -362,11 +384,13 @@ TEST(Sensitivity, OfALinearChainIsOfTheOrderOfOne) {
 }
 
 TEST(ScalingSummary, CountsAndNamesTheWorst) {
-  const auto point = [](int set, double target, double error) {
-    return ScalingPoint{set, "second", target, {}, 200, error};
+  const auto point = [](double k, double target, double error) {
+    ScalingPoint one{"second", target, {}, 200, error};
+    one.parameters.k = k;
+    return one;
   };
   const std::string text =
-      scaling_summary({point(1, 1e-3, 5e-4), point(1, 1e-4, 3e-4), point(4, 1e-3, 1e-5)});
+      scaling_summary({point(1e7, 1e-3, 5e-4), point(1e7, 1e-4, 3e-4), point(4e7, 1e-3, 1e-5)});
   EXPECT_TRUE(contains(text, {"2 other parameter sets: 2 of 3", "had 3 times"}));
   EXPECT_EQ(scaling_summary({}).find("not tested"), 0u);
 }
