@@ -171,12 +171,8 @@ bool is_shared_reader(const std::string &header) {
          fs::exists(root / "plugin/physics" / header);
 }
 
-/// Of the commands, `study` alone may include the laboratory, which a build may lack.
 bool fits_postprocess(const std::string &file, const std::string &header) {
-  if (is_shared_reader(header)) return true;
-  if (starts_with(header, "lab/") && starts_with(file, "commands/") && file != "commands/study.cpp")
-    return false;
-  return fits_room(file, header, postprocess_rooms);
+  return is_shared_reader(header) || fits_room(file, header, postprocess_rooms);
 }
 
 /// What lies directly in physics/ is included by all its folders, and so includes none of them.
@@ -415,8 +411,7 @@ TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
                                      {"meter/values.cpp", "identify/identification.h"},
                                      {"calibration/soil_tests.cpp", "report/soil/plate.h"},
                                      {"chain/analysis.cpp", "nowhere/run_folder.h"},
-                                     {"report/chain/page.cpp", "report/bed/page.h"},
-                                     {"lab/timing/page.cpp", "pages/page.h"}})
+                                     {"report/chain/page.cpp", "report/bed/page.h"}})
     EXPECT_FALSE(fits_postprocess(file, header)) << file << " " << header;
 
   EXPECT_TRUE(fits_judge({"cvode/cvode.h", false}));
