@@ -178,12 +178,9 @@ double rms_rebound_error(const fs::path &folder) {
 const std::vector<ExactQuantity> &exact_quantities() {
   static const std::vector<ExactQuantity> all = {
       {"velocity_error", "relative RMS error of the drum's velocity", &velocity_error},
-      {"steady_velocity_error", "relative RMS error of the drum's velocity over the last five cycles",
-       &steady_velocity_error},
-      {"peak_force_error", "relative error of the peak contact force of the last five cycles",
-       &peak_force_error},
-      {"peak_acceleration_error", "relative error of the drum's peak acceleration of the last five cycles",
-       &peak_acceleration_error},
+      {"steady_velocity_error", "steady RMS error of velocity", &steady_velocity_error},
+      {"peak_force_error", "steady error of peak force", &peak_force_error},
+      {"peak_acceleration_error", "steady error of peak acceleration", &peak_acceleration_error},
       {"way_error", "relative RMS error of the drum's way from rest", &way_error},
       {"event_time_error", "largest error of the time of an event over a cycle", &event_time_error},
       {"rebound_error", "error of the rebound over the speed of the impact", &rebound_error},

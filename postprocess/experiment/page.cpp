@@ -368,7 +368,7 @@ Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<c
       if (scene->series != series[s] || values.empty()) continue;
       const double x = scene->at.at(axis.name) + aside;
       for (const double value : values) {
-        table.row(name, {x, quantity.scale * value});
+        table.row(name, {x, quantity.scale * (axis.is_log ? std::fabs(value) : value)});
         up.add(quantity.scale * value);
       }
       const MeanInterval mean = mean_interval(values);
