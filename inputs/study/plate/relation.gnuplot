@@ -19,6 +19,6 @@ set ytics (10, 20, 50, 100, 200, 400)
 set key top left
 soils = "soft base stiff loose dry gravel"
 beds(soil) = sprintf("< grep '^%s,' relation.csv", soil)
-plot for [n = 1:6] beds(word(soils, n)) using 4:5 with points pt n < 6 ? 3 + 2 * n : 6 ps 0.8 lc rgb black \
+plot for [n = 1:6] beds(word(soils, n)) using 4:5 with points pt (n < 6 ? 3 + 2 * n : 6) ps 0.8 lc rgb black \
        title word(soils, n), \
      exp(f(log(x))) with lines lc rgb blue title sprintf("E_{v2} to the power %.2f", b)
