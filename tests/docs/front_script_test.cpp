@@ -459,7 +459,7 @@ TEST_F(FrontScript, DemoOfFewCyclesAndBalls) {
   // A user can type each command.
   const std::string commands = post::read_text(results / "commands.sh");
   expect_in_order(commands, {"# impact, A\ndrumlin run ",
-                             "in.impact -var out results/demo/impact/A -var transition A\n",
+                             "in.impact' -var out results/demo/impact/A -var transition A\n",
                              "# report\ndrumlin report results/demo --out report\n"});
   const fs::path written = work / "results/demo/chain/IV-B/chain.csv";
   const std::string was = post::read_text(written);
