@@ -307,7 +307,9 @@ protected:
         *std::find_if(after.begin(), after.end(), [](const DataBall &ball) { return ball.type == 2; });
     double sum = 0.0;
     int lines = 0;
-    for (double x = -half_width + 0.5 * spacing; x < half_width; x += spacing) {
+    const auto all = static_cast<int>(std::lround(2.0 * half_width / spacing));
+    for (int line = 0; line < all; ++line) {
+      const double x = -half_width + (line + 0.5) * spacing;
       if (std::fabs(x) < 1.5 * drum.radius) continue;
       double top = 0.0;
       for (const DataBall &ball : balls)

@@ -286,8 +286,9 @@ TEST(StressPath, OfAConstantMeanStressIsKeptAndBalanced) {
         fmt::format("-({}e3*v_side-f_on_top[3]/(v_width*v_depth))/{}*", sides + 1.0, sides);
     std::string deck = post::read_text(soil + "/in." + test);
     const std::size_t place = deck.rfind("include");
-    deck.insert(place, "variable push_side equal " + push + "v_height*v_depth\n" +
-                           (sides > 1.0 ? "variable push_front equal " + push + "v_width*v_height\n" : ""));
+    std::string words = fmt::format("variable push_side equal {}v_height*v_depth\n", push);
+    if (sides > 1.0) words += fmt::format("variable push_front equal {}v_width*v_height\n", push);
+    deck.insert(place, words);
     const Scratch scratch;
     post::write_files({{scratch / "in.path", deck}});
     const std::string layers_of_test = sides > 1.0 ? "5" : "7";
