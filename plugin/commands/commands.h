@@ -61,7 +61,7 @@ void layers_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// drumlin/pick NAME WHICH LIST: sets a variable to the largest number of a list, or to that in a place.
 void pick_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/repeat NAME N COMMAND ...: gives a variable the values 1 to N, and executes commands for each.
+/// drumlin/repeat NAME N COMMAND ...: executes the commands N times, with the variable NAME as 1, 2, ... N.
 void repeat_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/suction NAME GROUP strength S solid P contacts Z: sets a variable to the suction that gives soil a

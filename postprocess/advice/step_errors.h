@@ -24,7 +24,7 @@ struct ChainErrors {
   double velocity;     ///< relative RMS of the drum's velocity over the window
   double force;        ///< of the peak contact force over the window, relative
   double acceleration; ///< of the largest magnitude of the drum's acceleration over the window, relative
-  double loop_s;       ///< time of the cycles, by the engine's clock
+  double loop_s;       ///< wall time of the cycles as the engine prints it (loop time) [s]
 };
 
 /// The exact solution to which the runs of a chain are compared.

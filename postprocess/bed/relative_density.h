@@ -14,7 +14,7 @@ double relative_density(double void_ratio, double loosest, double densest);
 
 /// The largest solid fraction that vertical shaking leaves of soil as case gravel, away from walls and
 /// surfaces: what is denser can only loosen (inputs/study/cyclic).
-/// \param flat discs in the plane, else spheres
+/// \param flat true: discs in the plane; false: spheres
 double densest_by_shaking(bool flat);
 
 /// How a layer is poured so that it gets a wanted density.

@@ -513,10 +513,9 @@ int wanted_balls(const BedRequest &request) {
   return balls;
 }
 
-/// Packs the balls, writes the data file that inputs/bed/in.settle reads, and prints one line about it. With
-/// a grading that was asked for it also prints a table of d10 to d60, C_u and C_c, and draws the grading of
-/// the balls beside the one asked for, each layer in a panel of its own: OUT_grading.csv, .gp, .svg and .png,
-/// where OUT is the file without extension. Throws UsageError for options that no packing fulfils and for a
+/// Packs the balls and writes the data file OUT.data that inputs/bed/in.settle reads. With a sieve curve it
+/// also prints d10 to d60, C_u and C_c of the curve and of the balls, and draws both, a panel for each layer,
+/// in OUT_grading.csv, .gp, .svg and .png. Throws UsageError for options that no packing fulfils and for a
 /// file that cannot be written.
 void write_bed(const BedRequest &request) {
   const fs::path &out = request.out;

@@ -1,5 +1,6 @@
-// A subcommand and its options. An option is declared once, as a member that holds its value: name, what it
-// may be, help, default. All that is given is judged before the subcommand runs.
+// A subcommand and its options. Each option is one member, declared with name, range and unit, help and
+// default; it holds the value that the user gave. Values outside of their range are refused before the
+// subcommand runs.
 #pragma once
 
 #include "support/range.h"

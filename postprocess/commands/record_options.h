@@ -78,10 +78,10 @@ struct RecordArguments : Options {
   Number c23 = number("--c23", {0.0, 1e12, "N s/m"}, "damping of the bond [N s/m]");
   std::optional<Number> bond_tolerance; ///< an option of identify alone [%]
   bool guess = false;                   ///< what the columns are, where no name is known: of meter --show
-  double exciter_shift = 0.0;           ///< from where the roller's file has the exciter [m]
+  double exciter_shift = 0.0; ///< place of the exciter along the axle less that of the roller's file [m]
 };
 
-/// The part of the way that counts of a record with places.
+/// Options that take a part of the way, of a record that has the place of the roller in each row.
 struct WayArguments : Options {
   using Options::Options;
   Number from = number("--from-place", {-1e6, 1e6, "m"},

@@ -851,7 +851,8 @@ private:
     return cells;
   }
 
-  /// Expects of each scene at most so many times what an earlier table has.
+  /// Line `at_most`: an error of a scene is at most a factor times that of the same scene in an earlier
+  /// table.
   void take_bounds(const Bounds &bounds) {
     const PlanTable &table = plan_.tables[bounds.table];
     std::map<std::vector<std::string>, Scene *> scenes;
@@ -898,7 +899,8 @@ private:
     plan_.scenes = std::move(all);
   }
 
-  /// Leaves out scenes whose engine is not set up, unless all are such, which is a fault of the call.
+  /// Leaves out scenes whose engine, LIGGGHTS or LAMMPS, is not set up. If none is left the plan stays whole,
+  /// and the study says what is missing.
   void leave_out_engines() {
     const auto fault_of = [](const Scene &scene) { return engine_fault(engine_of(scene.deck)); };
     const auto left = std::stable_partition(plan_.scenes.begin(), plan_.scenes.end(),

@@ -65,7 +65,7 @@ struct Scene {
   std::vector<Setting> settings = {}; ///< each name once for each scope
   std::string seed_variable = {};     ///< the deck's variable that gets the seed; of a bed none
   int seeds = 1;
-  bool rounds = false; ///< whether the seeds are rounds, in which scenes run in turn: the same run again
+  bool rounds = false; ///< `seeds` counts repetitions of the same run, in turn with those of other scenes
   int ranks = 1;
   std::vector<MadeFile> made = {}; ///< in the order in which they are made
 

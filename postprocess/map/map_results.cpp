@@ -68,7 +68,7 @@ CsvSchema<ChainRow> map_columns(const MapGrid &grid) {
       2);
 }
 
-/// All points of the map in its order; those that an earlier call has written are not computed again.
+/// All points of the map, row by row; those that stand in the table of an earlier call are read from it.
 /// \param at_once number of points that are computed before they are written
 template <class Point, class Judge>
 std::vector<Point> map_points(const MapTask &task, const CsvSchema<MapRow<Point>> &columns,

@@ -1,5 +1,5 @@
-// The maps and sweeps that `drumlin map` makes: each function computes one, writes its tables, figures and
-// page into a folder, and prints what it holds. What an earlier call has computed is not computed again.
+// What `drumlin map` can make. Each function computes one kind of map or sweep, writes tables, figures and
+// page into a folder, and prints a summary. Points in tables of an earlier call are read, not computed again.
 #pragma once
 
 #include "map/ends_map.h"

@@ -276,8 +276,8 @@ TEST(TriaxialEquilibrium, TheForcesOnThePlatesGoThroughEveryCut) {
                      100e3 * std::pow(6 * diameter, 2));
 }
 
-// Another stress path is another force on the side platens, defined before the file compressed: with a
-// constant mean stress the energy is balanced as with a constant side stress.
+// A user changes the stress path by defining the force on the side platens (variable push_side) in the deck.
+// With a force that keeps the mean stress constant, stresses are as wanted and energy is balanced.
 TEST(StressPath, OfAConstantMeanStressIsKeptAndBalanced) {
   const std::string soil = chain_deck("../soil").string();
   for (const std::string test : {"biaxial", "triaxial"}) {

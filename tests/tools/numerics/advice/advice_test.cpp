@@ -286,8 +286,8 @@ TEST(Advice, ForAMeasuredChainComesFromItsOwnCurve) {
   EXPECT_EQ(advise(request, power_laws()).steps_per_cycle, 3200);
 }
 
-// The chains that were drawn at random run with the steps that the committed curves give, else the study of
-// accuracy would not test them.
+// The plan of accuracy runs random chains with the number of steps that `advise` gives for a wanted error:
+// with other numbers it would not test the advice.
 TEST(Advice, IsWhatThePlanOfAccuracyRuns) {
   const std::vector<ChainPoint> known = read_points(input_file("study/accuracy/chain.csv"), chain_points());
   std::size_t chains = 0;
