@@ -53,7 +53,7 @@ FixGuard::FixGuard(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg
     else if (keyword == "overlap")
       overlap_ = in.number("keyword overlap", drumlin::Range::positive);
     else
-      in.fail("keyword", keyword, "every, links, step or overlap");
+      in.fail("keyword", keyword, "on or off first, every, links, step or overlap");
   }
 }
 
