@@ -464,7 +464,7 @@ void plan_errors(const ReportResults &results, FigurePlan &plan) {
   CurveTable table("run number (-),relative RMS error of drum velocity (-)");
   Panel panel{"Fig. R6  Error of drum velocity against the reference solution",
               "",
-              fmt::format("relative RMS error, last {} cycles or all of a shorter run (-)", error_cycles),
+              fmt::format("relative RMS error, last {} cycles (-)", error_cycles),
               {}};
   panel.log_y = true;
   bool any_a = false;
