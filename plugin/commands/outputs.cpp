@@ -2,6 +2,7 @@
 
 #include "commands/deck_variables.h"
 #include "commands/fix_outputs.h"
+#include "contact/contact_source.h"
 #include "support/arguments.h"
 #include "support/command_line.h"
 #include "support/output_set.h"
@@ -132,6 +133,7 @@ void record_command(LAMMPS *lmp, int narg, char **arg) {
   for (const DeclaredVariable &variable : variables.declared())
     if (std::none_of(rows.begin(), rows.end(), [&](const auto &row) { return row.first == variable.name; }))
       rows.emplace_back(variable.name, variables.value(variable.name).value_or(""));
+  if (const std::string law = law_name(lmp); !law.empty()) rows.emplace_back("contact_law", law);
   rows.emplace_back("engine", engine::name_and_version());
   rows.emplace_back("plugin", std::string("drumlin ") + DRUMLIN_VERSION);
   rows.emplace_back("ranks", std::to_string(lmp->comm->nprocs));

@@ -28,6 +28,8 @@ struct TangentialSpring {
 /// The contact law in force, as the pair style applies it.
 class ContactSource {
 public:
+  /// The law that the deck has chosen: the name of its style.
+  virtual std::string law_name() const = 0;
   /// The coefficients of the law. Valid from the initialization of a run on.
   virtual AnyTable table() const = 0;
   /// The same, to be changed by a fix, of the linear law; nullptr: the deck has another. Valid until the next
@@ -129,5 +131,7 @@ std::string other_pair_style(const engine::LAMMPS *lmp, const std::string &comma
 /// Source of the pair style of this engine instance, or of the part of a hybrid pair style that has one of
 /// the laws; nullptr if there is none, or more than one. Valid from the initialization of a run on.
 ContactSource *contact_source(engine::LAMMPS *lmp);
+/// The name of the law that the deck has chosen; empty: another pair style, or none.
+std::string law_name(engine::LAMMPS *lmp);
 
 } // namespace drumlin

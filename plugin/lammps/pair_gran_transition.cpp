@@ -74,12 +74,23 @@ std::string PairGranTransition::style_name() const {
       tables_);
 }
 
+std::string PairGranTransition::law_name() const {
+  return std::visit(
+      [](const auto &table) -> std::string { return std::decay_t<decltype(table.at(0, 0).contact)>::name; },
+      tables_);
+}
+
 drumlin::AnyTable PairGranTransition::table() const {
   return std::visit([](const auto &table) -> drumlin::AnyTable { return &table; }, tables_);
 }
 
 drumlin::CoefficientTable<drumlin::physics::LinearContact> *PairGranTransition::linear_table() {
   return std::get_if<drumlin::CoefficientTable<drumlin::physics::LinearContact>>(&tables_);
+}
+
+std::string drumlin::law_name(engine::LAMMPS *lmp) {
+  const PairGranTransition *pair = PairGranTransition::find(lmp);
+  return pair == nullptr ? "" : pair->law_name();
 }
 
 drumlin::ContactSource *drumlin::contact_source(engine::LAMMPS *lmp) { return PairGranTransition::find(lmp); }

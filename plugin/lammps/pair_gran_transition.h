@@ -79,6 +79,7 @@ public:
   double radii2cut(double r1, double r2) override { return r1 + r2; }
 #endif
 
+  std::string law_name() const override;
   drumlin::AnyTable table() const override;
   drumlin::CoefficientTable<drumlin::physics::LinearContact> *linear_table() override;
   double mass(int i) const override;

@@ -110,6 +110,8 @@ public:
     Base::compute_force(pair, eflag, vflag, adds);
   }
 
+  std::string law_name() const override { return Contact::name; }
+
 private:
   template <bool stepped>
   void compute_contacts() {

@@ -58,6 +58,11 @@ ContactSource *contact_source(LAMMPS *lmp) {
   return contacts != nullptr && contacts->has_table() ? contacts : nullptr;
 }
 
+std::string law_name(LAMMPS *lmp) {
+  const PairSource *contacts = pair_source(lmp);
+  return contacts == nullptr ? "" : contacts->law_name();
+}
+
 void PairSource::begin(LAMMPS_NS::PairGran *pair, const ContactSettings &settings) {
   pair_ = pair;
   table_.reset();

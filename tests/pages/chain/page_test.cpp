@@ -6,6 +6,7 @@
 #include "report/chain/ends_page.h"
 #include "report/chain/engine_comparison.h"
 #include "report/report.h"
+#include "report/run_folder.h"
 #include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/files.h"
@@ -206,6 +207,21 @@ TEST_F(EndsReport, LeavesOutWhatARunDoesNotGive) {
   const std::vector<std::string> curves = read_table(out / "data" / "ends_2.csv").text("curve");
   EXPECT_EQ(std::count(curves.begin(), curves.end(), "left end"), 0);
   EXPECT_EQ(std::count(curves.begin(), curves.end(), "middle"), 601);
+}
+
+// The reference solution has linear contacts.
+TEST_F(EndsReport, ChainsOfOtherLawsAreNotCompared) {
+  run("own", 3e7, 2);
+  const std::map<std::string, RunKind> laws = {{"hooke/transition", RunKind::ends},
+                                               {"hertz/transition", RunKind::unknown}};
+  for (const auto &[law, kind] : laws) {
+    const fs::path file = root / "runs" / "own" / "parameters.csv";
+    std::string text = read_text(file);
+    const std::size_t old = text.find("contact_law,");
+    if (old != std::string::npos) text.erase(old, text.find('\n', old) + 1 - old);
+    write_files({{file, text + "contact_law," + law + "\n"}});
+    EXPECT_EQ(drumlin::post::read_run(file.parent_path()).kind, kind) << law;
+  }
 }
 
 } // namespace ends
