@@ -15,7 +15,6 @@ namespace {
 
 using LAMMPS_NS::LAMMPS;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr const char *of_loosest = "keyword scale, loosest", *of_densest = "keyword scale, densest",
                      *of_asked = "keyword scale, asked for";
 constexpr const char *one_each = "unknown, or a number for each layer, separated by commas";
@@ -25,6 +24,7 @@ constexpr double expected_scatter = 0.2;
 
 /// Area of a disc, or volume of a sphere, of radius 1 to the left of x.
 double content_left_of(double x, bool flat) {
+  constexpr double pi = 3.14159265358979323846;
   const double at = std::max(-1.0, std::min(x, 1.0));
   return flat ? pi - std::acos(at) + at * std::sqrt(1.0 - at * at)
               : pi / 3.0 * (1.0 + at) * (1.0 + at) * (2.0 - at);
@@ -87,7 +87,7 @@ public:
     double mine = 0.0;
     for_balls([&](int i) {
       const double r = atom.radius[i];
-      const double content = flat ? pi * r * r : 4.0 / 3.0 * pi * r * r * r;
+      const double content = content_left_of(1.0, flat) * (flat ? r * r : r * r * r);
       mine +=
           content * inside.share(atom.x[i][1], r, flat) * (walled ? along.share(atom.x[i][0], r, flat) : 1.0);
     });

@@ -6,11 +6,11 @@
 using namespace LAMMPS_NS;
 
 namespace {
-constexpr const char *fix_id = "drumlin_outputs";
+constexpr const char *outputs_id = "drumlin_outputs";
 } // namespace
 
 void FixOutputs::provide(LAMMPS *lammps, std::unique_ptr<drumlin::OutputSet> set) {
-  std::string words[] = {fix_id, "all", style_name};
+  std::string words[] = {outputs_id, "all", style_name};
   char *arg[] = {words[0].data(), words[1].data(), words[2].data()};
   if (drumlin::engine::find_fix(lammps->modify, words[0]) != nullptr) lammps->modify->delete_fix(arg[0]);
   lammps->modify->add_fix(3, arg);
@@ -18,7 +18,7 @@ void FixOutputs::provide(LAMMPS *lammps, std::unique_ptr<drumlin::OutputSet> set
 }
 
 FixOutputs *FixOutputs::of(const LAMMPS *lammps) {
-  return dynamic_cast<FixOutputs *>(drumlin::engine::find_fix(lammps->modify, fix_id));
+  return dynamic_cast<FixOutputs *>(drumlin::engine::find_fix(lammps->modify, outputs_id));
 }
 
 /// A program that uses the engine as a library may go on after an error and destroy the engine in a run.

@@ -15,7 +15,7 @@ namespace physics = drumlin::physics;
 
 namespace {
 
-constexpr const char *helper_id = "drumlin_between_runs";
+constexpr const char *between_runs_id = "drumlin_between_runs";
 
 /// A number that differs if any of the numbers added differs in a bit (FNV-1a). It is exact as a double.
 class Fingerprint {
@@ -40,12 +40,12 @@ private:
 FixBetweenRuns *FixBetweenRuns::find(LAMMPS *lammps) {
   return lammps->modify == nullptr
              ? nullptr
-             : dynamic_cast<FixBetweenRuns *>(engine::find_fix(lammps->modify, helper_id));
+             : dynamic_cast<FixBetweenRuns *>(engine::find_fix(lammps->modify, between_runs_id));
 }
 
 FixBetweenRuns *FixBetweenRuns::provide(LAMMPS *lammps) {
   if (FixBetweenRuns *fix = find(lammps)) return fix;
-  std::string words[] = {helper_id, "all", style_name};
+  std::string words[] = {between_runs_id, "all", style_name};
   char *arg[] = {words[0].data(), words[1].data(), words[2].data()};
   lammps->modify->add_fix(3, arg);
   return find(lammps);

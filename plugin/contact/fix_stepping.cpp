@@ -13,7 +13,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-constexpr const char *helper_id = "drumlin_stepping";
+constexpr const char *stepping_id = "drumlin_stepping";
 constexpr int most_gathered = 9; // most numbers that a ghost sends to its owner
 
 /// Fixes that give balls another velocity than the forces on them would.
@@ -41,7 +41,7 @@ namespace {
 /// The fix, whether in use or not; nullptr if there is none. \param modify nullptr while the engine ends
 FixStepping *helper_of(Modify *modify) {
   return modify == nullptr ? nullptr
-                           : dynamic_cast<FixStepping *>(drumlin::engine::find_fix(modify, helper_id));
+                           : dynamic_cast<FixStepping *>(drumlin::engine::find_fix(modify, stepping_id));
 }
 
 } // namespace
@@ -53,7 +53,7 @@ FixStepping *FixStepping::find(LAMMPS *lammps) {
 
 FixStepping *FixStepping::provide(LAMMPS *lammps) {
   if (helper_of(lammps->modify) == nullptr) {
-    std::string words[] = {helper_id, "all", "drumlin/stepping"};
+    std::string words[] = {stepping_id, "all", "drumlin/stepping"};
     char *arg[] = {words[0].data(), words[1].data(), words[2].data()};
     lammps->modify->add_fix(3, arg);
   }

@@ -15,7 +15,7 @@ namespace physics = drumlin::physics;
 
 namespace {
 
-constexpr const char *command = "fix boundary/absorb";
+constexpr const char *absorb_fix = "fix boundary/absorb";
 
 physics::Vec3 vector_of(const double *v) { return {v[0], v[1], v[2]}; }
 
@@ -43,7 +43,7 @@ FixBoundaryAbsorb::~FixBoundaryAbsorb() {
 }
 
 void FixBoundaryAbsorb::parse(int narg, char **arg) {
-  drumlin::Arguments in(error, command, narg - 3, arg + 3);
+  drumlin::Arguments in(error, absorb_fix, narg - 3, arg + 3);
   bool has_normal = false;
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
@@ -82,7 +82,7 @@ void FixBoundaryAbsorb::init() {
   if (count_ == 0.0)
     error->all(FLERR, engine::error_text(fmt::format(
                           "{}: group is '{}', which is empty; allowed: the group of the boundary's balls",
-                          command, group->names[igroup])));
+                          absorb_fix, group->names[igroup])));
   ball_.along = ground_.along_normal(count_);
   ball_.across = ground_.in_plane(count_);
   const std::vector<double> links{ball_.normal[0],       ball_.normal[1],     ball_.normal[2],
@@ -94,7 +94,7 @@ void FixBoundaryAbsorb::init() {
   observers_.find(*modify);
   if (keep_static_) refuse_earlier_integration();
   if (domain->deform_flag)
-    error->all(FLERR, engine::error_text(std::string(command) +
+    error->all(FLERR, engine::error_text(std::string(absorb_fix) +
                                          ": the box is deformed by fix deform; allowed: a box that stays as "
                                          "it is, since the ground outside of it does"));
 }
@@ -113,7 +113,7 @@ void FixBoundaryAbsorb::refuse_earlier_integration() const {
       error->all(FLERR, engine::error_text(fmt::format(
                             "{}: keyword static is 'yes' behind fix {} ({}), which integrates; allowed: "
                             "static yes before all fixes that integrate balls of the boundary",
-                            command, earlier.id, earlier.style)));
+                            absorb_fix, earlier.id, earlier.style)));
   }
 }
 

@@ -9,7 +9,7 @@ namespace engine = drumlin::engine;
 
 namespace {
 
-constexpr const char *command = "fix contact/energy";
+constexpr const char *energy_fix = "fix contact/energy";
 /// BedSums counts heights along an axis; no output of this fix depends on it.
 constexpr std::array<double, 3> any_axis{0.0, 1.0, 0.0};
 
@@ -17,7 +17,7 @@ constexpr std::array<double, 3> any_axis{0.0, 1.0, 0.0};
 
 FixContactEnergy::FixContactEnergy(LAMMPS *lammps, int narg, char **arg)
     : GhostFix(lammps, narg, arg), sums_(lmp, groupbit) {
-  drumlin::Arguments in(error, command, narg - 3, arg + 3);
+  drumlin::Arguments in(error, energy_fix, narg - 3, arg + 3);
   in.expect_end("fix ID group contact/energy");
   vector_flag = 1;
   size_vector = 7;
@@ -32,7 +32,7 @@ int FixContactEnergy::setmask() { return FixConst::PRE_FORCE | FixConst::END_OF_
 
 void FixContactEnergy::init() {
   if (drumlin::contact_source(lmp) == nullptr)
-    error->all(FLERR, engine::error_text(drumlin::other_pair_style(lmp, command)));
+    error->all(FLERR, engine::error_text(drumlin::other_pair_style(lmp, energy_fix)));
 }
 
 void FixContactEnergy::setup_pre_force(int step) { pre_force(step); }

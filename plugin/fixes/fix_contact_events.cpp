@@ -12,13 +12,13 @@ namespace physics = drumlin::physics;
 
 namespace {
 
-constexpr const char *command = "fix contact/events";
-constexpr const char *file_keyword = "fix contact/events: keyword file";
+constexpr const char *events_fix = "fix contact/events";
+constexpr const char *events_file_keyword = "fix contact/events: keyword file";
 /// Steps between two writes, which are collective: an event stays in memory for at most as many steps.
 constexpr int write_interval = 1000;
 
 std::string file_argument(Error *error, int narg, char **arg) {
-  drumlin::Arguments in(error, command, narg - 3, arg + 3);
+  drumlin::Arguments in(error, events_fix, narg - 3, arg + 3);
   if (in.empty() || in.peek() != "file")
     in.fail("keyword file is missing; allowed: file NAME as the first keyword");
   in.word("keyword");
@@ -43,7 +43,7 @@ FixContactEvents::FixContactEvents(LAMMPS *lammps, int narg, char **arg)
   restart_global = 1;
   time_depend = 1;
 
-  drumlin::Arguments in(error, command, narg - 5, arg + 5);
+  drumlin::Arguments in(error, events_fix, narg - 5, arg + 5);
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (keyword == "types") {
@@ -64,12 +64,12 @@ int FixContactEvents::setmask() { return FixPairObserver::setmask() | FixConst::
 
 void FixContactEvents::init() {
   FixPairObserver::init();
-  drumlin::OutputFile::check(file_.name(), comm, error, world, file_keyword);
+  drumlin::OutputFile::check(file_.name(), comm, error, world, events_file_keyword);
 }
 
 void FixContactEvents::setup(int vflag) {
   clock_.set_up(update->ntimestep, update->dt);
-  file_.open(comm, error, world, file_keyword, "time,event,overlap,overlap_rate,force,id_i,id_j");
+  file_.open(comm, error, world, events_file_keyword, "time,event,overlap,overlap_rate,force,id_i,id_j");
   FixPairObserver::setup(vflag);
 }
 
@@ -128,7 +128,7 @@ void FixContactEvents::write_out() {
   for (const Event &e : all)
     std::fprintf(file_.get(), "%.17g,%s,%.17g,%.17g,%.17g,%d,%d\n", e.time, e.make ? "make" : "break",
                  e.overlap, e.rate, e.force, e.tag_i, e.tag_j);
-  file_.flush(error, world, file_keyword);
+  file_.flush(error, world, events_file_keyword);
   MPI_Bcast(&written, 1, MPI_LMP_BIGINT, 0, world);
   count_ += written;
 }

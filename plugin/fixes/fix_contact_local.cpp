@@ -8,12 +8,12 @@ namespace engine = drumlin::engine;
 
 namespace {
 
-constexpr const char *command = "fix contact/local";
+constexpr const char *local_fix = "fix contact/local";
 
 } // namespace
 
 FixContactLocal::FixContactLocal(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
-  drumlin::Arguments in(error, command, narg - 3, arg + 3);
+  drumlin::Arguments in(error, local_fix, narg - 3, arg + 3);
   in.choice("keyword", {"every"});
   nevery = static_cast<int>(in.integer("keyword every", 1, std::numeric_limits<int>::max()));
   in.expect_end("every N");
@@ -29,7 +29,7 @@ int FixContactLocal::setmask() { return FixConst::PRE_FORCE | FixConst::END_OF_S
 
 void FixContactLocal::init() {
   if (drumlin::contact_source(lmp) == nullptr)
-    error->all(FLERR, engine::error_text(drumlin::other_pair_style(lmp, command)));
+    error->all(FLERR, engine::error_text(drumlin::other_pair_style(lmp, local_fix)));
 }
 
 void FixContactLocal::setup_pre_force(int vflag) { pre_force(vflag); }

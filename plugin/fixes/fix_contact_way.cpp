@@ -18,7 +18,7 @@ using drumlin::WayRow;
 
 namespace {
 
-constexpr const char *command = "fix contact/way";
+constexpr const char *way_fix = "fix contact/way";
 
 } // namespace
 
@@ -29,7 +29,7 @@ FixContactWay::FixContactWay(LAMMPS *lammps, int narg, char **arg) : Fix(lammps,
   global_freq = nevery = 1;
   restart_global = 1;
   time_depend = 1; // work is a sum over the steps
-  drumlin::Arguments in(error, command, narg - 3, arg + 3);
+  drumlin::Arguments in(error, way_fix, narg - 3, arg + 3);
   bool between = false;
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
@@ -62,7 +62,7 @@ void FixContactWay::read(const std::string &file) {
     } catch (const std::invalid_argument &wrong) {
       fault = wrong.what();
     }
-  engine::stop_on_fault(lmp, command, fault);
+  engine::stop_on_fault(lmp, way_fix, fault);
   auto rows = static_cast<int>(way_.size());
   MPI_Bcast(&rows, 1, MPI_INT, 0, world);
   way_.resize(static_cast<std::size_t>(rows));
@@ -100,7 +100,7 @@ void FixContactWay::init() {
 }
 
 void FixContactWay::refuse(const std::string &fault) const {
-  error->all(FLERR, engine::error_text(std::string(command) + ": " + fault));
+  error->all(FLERR, engine::error_text(std::string(way_fix) + ": " + fault));
   std::abort(); // not reached: error->all() ends the process
 }
 

@@ -17,7 +17,7 @@ namespace physics = drumlin::physics;
 
 namespace {
 
-constexpr const char *command = "fix drum/travel";
+constexpr const char *travel_fix = "fix drum/travel";
 
 using Vector = std::array<double, 3>;
 
@@ -36,7 +36,7 @@ FixDrumTravel::FixDrumTravel(LAMMPS *lammps, int narg, char **arg) : Fix(lammps,
 }
 
 void FixDrumTravel::parse(int narg, char **arg) {
-  drumlin::Arguments in(error, command, narg - 3, arg + 3);
+  drumlin::Arguments in(error, travel_fix, narg - 3, arg + 3);
   std::optional<double> from, to, speed;
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
@@ -94,7 +94,7 @@ void FixDrumTravel::init() {
     error->all(FLERR,
                engine::error_text(fmt::format("{}: group is '{}', which is empty; allowed: a group with the "
                                               "balls that drive",
-                                              command, group->names[igroup])));
+                                              travel_fix, group->names[igroup])));
   stepping_ = FixStepping::find(lmp);
   refuse_order();
   find_axle();
@@ -114,13 +114,13 @@ void FixDrumTravel::refuse_order() {
       common += (atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit) ? 1 : 0;
     MPI_Allreduce(MPI_IN_PLACE, &common, 1, MPI_INT, MPI_SUM, world);
     if (common > 0)
-      error->all(FLERR,
-                 engine::error_text(fmt::format(
-                     "{}: group is '{}', of which {} balls are moved by fix {} ({}){}; allowed: {}", command,
-                     group->names[igroup], common, other->id, other->style, travels ? "" : " behind it",
-                     travels ? "one fix drum/travel for a ball"
-                             : "fix drum/travel behind all fixes that "
-                               "integrate its balls")));
+      error->all(FLERR, engine::error_text(fmt::format(
+                            "{}: group is '{}', of which {} balls are moved by fix {} ({}){}; allowed: {}",
+                            travel_fix, group->names[igroup], common, other->id, other->style,
+                            travels ? "" : " behind it",
+                            travels ? "one fix drum/travel for a ball"
+                                    : "fix drum/travel behind all fixes that "
+                                      "integrate its balls")));
   }
 }
 
@@ -137,7 +137,7 @@ void FixDrumTravel::find_axle() {
   if (size == 0.0)
     error->all(FLERR, engine::error_text(fmt::format(
                           "{}: keyword rotation is '{}', and {} across the way; allowed: with a direction up",
-                          command, rotation_ == Rotation::driven ? "driven" : "towed",
+                          travel_fix, rotation_ == Rotation::driven ? "driven" : "towed",
                           up_ ? "keyword up has no part" : "there is neither gravity nor a keyword up")));
   Vector way{};
   way[static_cast<std::size_t>(axis_)] = 1.0;
@@ -167,12 +167,12 @@ void FixDrumTravel::find_drum() {
                engine::error_text(fmt::format(
                    "{}: keyword drum is '{}', a group of {:.0f} balls, of which {:.0f} drive; allowed: "
                    "one ball that drives, the group of a fix clump that drives, or rotation none",
-                   command, group->names[drum_group_], all[0], all[1])));
+                   travel_fix, group->names[drum_group_], all[0], all[1])));
   if (clump_ && rotation_ == Rotation::driven && !radius_)
     error->all(FLERR,
                engine::error_text(fmt::format("{}: keyword radius is missing, and drum is '{}', a clump; "
                                               "allowed: radius R, at which it rolls",
-                                              command, group->names[drum_group_])));
+                                              travel_fix, group->names[drum_group_])));
   rolling_radius_ = radius_.value_or(all[2]);
 }
 
@@ -233,7 +233,7 @@ void FixDrumTravel::setup_pre_exchange() {
     error->all(FLERR, engine::error_text(fmt::format(
                           "{}: way driven is '{:.9g} m' after {:.9g} s, and {:.9g} m by these keywords; "
                           "allowed: those of the run before",
-                          command, moved_, clock_.time(update->ntimestep), place)));
+                          travel_fix, moved_, clock_.time(update->ntimestep), place)));
   else if (clump_)
     check_clump();
   find_inertia();
@@ -332,11 +332,12 @@ void FixDrumTravel::begin_clump() {
 void FixDrumTravel::refuse_torn(double reach) const {
   for (std::size_t a = 0; a < 3; ++a)
     if (axle_[a] == 0.0 && domain->periodicity[a] && 4.0 * reach > domain->prd[a])
-      error->all(FLERR, engine::error_text(fmt::format(
-                            "{}: keyword drum is '{}', a clump of which a ball is {:.6g} m away from the "
-                            "middle; allowed: at most a quarter of the periodic box along {}, {:.6g} m, and "
-                            "images (command set) side by side",
-                            command, group->names[drum_group_], reach, "xyz"[a], 0.25 * domain -> prd[a])));
+      error->all(FLERR,
+                 engine::error_text(fmt::format(
+                     "{}: keyword drum is '{}', a clump of which a ball is {:.6g} m away from the "
+                     "middle; allowed: at most a quarter of the periodic box along {}, {:.6g} m, and "
+                     "images (command set) side by side",
+                     travel_fix, group->names[drum_group_], reach, "xyz"[a], 0.25 * domain -> prd[a])));
 }
 
 /// How far the group comes from where it stands at first towards smaller and greater places, m.
@@ -374,7 +375,7 @@ void FixDrumTravel::check_clump() const {
     error->all(FLERR, engine::error_text(fmt::format(
                           "{}: keyword drum is '{}', a clump of {:.0f} balls, of which {:.0f} are among the "
                           "{:.0f} that rolled in the run before; allowed: the clump of the run before",
-                          command, group->names[drum_group_], counts[0], counts[1], rolled)));
+                          travel_fix, group->names[drum_group_], counts[0], counts[1], rolled)));
   const double size = std::fabs(start_) + std::fabs(moved_) + std::fabs(height_) + travel_.reach();
   const double speed = travel_.speed + std::fabs(rise_);
   if (worst[0] > rounding * size || worst[1] > rounding * speed)
@@ -382,7 +383,7 @@ void FixDrumTravel::check_clump() const {
                engine::error_text(fmt::format(
                    "{}: keyword drum is '{}', a clump with balls that are {:.3g} m and {:.3g} m/s away from "
                    "where it rolls; allowed: places and velocities as the run before has left them",
-                   command, group->names[drum_group_], worst[0], worst[1])));
+                   travel_fix, group->names[drum_group_], worst[0], worst[1])));
 }
 
 /// \param least, most coordinates that a ball of the group comes to, m
@@ -396,7 +397,7 @@ void FixDrumTravel::refuse_leaving(double least, double most) const {
   error->all(FLERR, engine::error_text(fmt::format(
                         "{}: way is '{:.9g} to {:.9g} m' along {} for the centres of the balls; allowed: "
                         "inside of the box, {:.9g} to {:.9g} m",
-                        command, least, most, "xyz"[axis_], low, high)));
+                        travel_fix, least, most, "xyz"[axis_], low, high)));
 }
 
 void FixDrumTravel::setup(int) {

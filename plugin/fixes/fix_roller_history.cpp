@@ -20,7 +20,7 @@ namespace physics = drumlin::physics;
 
 namespace {
 
-constexpr const char *command = "fix roller/history";
+constexpr const char *history_fix = "fix roller/history";
 constexpr const char *file_keyword = "fix roller/history: keyword file";
 constexpr const char *cycles_keyword = "fix roller/history: keyword cycles";
 /// Added to the number of a time step in a restart file to say that the heat of yielding follows as the last
@@ -42,7 +42,7 @@ FixRollerHistory::FixRollerHistory(LAMMPS *lammps, int narg, char **arg)
 }
 
 void FixRollerHistory::parse(int narg, char **arg) {
-  drumlin::Arguments in(error, command, narg - 3, arg + 3);
+  drumlin::Arguments in(error, history_fix, narg - 3, arg + 3);
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (keyword == "file") {
@@ -112,7 +112,7 @@ void FixRollerHistory::refuse_other_step() const {
              engine::error_text(fmt::format(
                  "{}: keyword cycles is '{}' steps per cycle, and the time step has changed from {:.9g} to "
                  "{:.9g} s; allowed: one time step as long as the fix is defined, or no keyword cycles",
-                 command, steps_per_cycle_, clock_.dt(), update->dt)));
+                 history_fix, steps_per_cycle_, clock_.dt(), update->dt)));
 }
 
 void FixRollerHistory::setup_pre_force(int step) { pre_force(step); }
@@ -122,7 +122,7 @@ void FixRollerHistory::pre_force(int) {
 
 void FixRollerHistory::init() {
   source_ = drumlin::contact_source(lmp);
-  if (source_ == nullptr) error->all(FLERR, engine::error_text(drumlin::other_pair_style(lmp, command)));
+  if (source_ == nullptr) error->all(FLERR, engine::error_text(drumlin::other_pair_style(lmp, history_fix)));
   drumlin::OutputFile::check(file_name_, comm, error, world, file_keyword);
   if (steps_per_cycle_ > 0) drumlin::OutputFile::check(cycles_name_, comm, error, world, cycles_keyword);
   if (group->count(igroup) == 0)
@@ -147,7 +147,7 @@ void FixRollerHistory::init() {
                  engine::error_text(fmt::format(
                      "{}: keyword cycles is '{}' steps per cycle, and fix {} ({}) changes the time step; "
                      "allowed: one time step as long as the fix is defined, or no keyword cycles",
-                     command, steps_per_cycle_, fix->id, fix->style)));
+                     history_fix, steps_per_cycle_, fix->id, fix->style)));
 
   const std::array<double, 3> g = engine::gravity(modify);
   if (!has_axis_) {
@@ -173,7 +173,7 @@ void FixRollerHistory::find_bodies() {
       error->all(FLERR, engine::error_text(fmt::format(
                             "{}: keyword ends is '{:.6g} m'; allowed: groups of drum and frame that a fix "
                             "clump each tilts, with axis x axle along the keyword axis of this fix",
-                            command, *sensor_)));
+                            history_fix, *sensor_)));
 }
 
 /// The fixes that the keywords excite, bond and travel name, and the absorbing boundaries of a bed.

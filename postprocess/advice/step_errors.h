@@ -15,9 +15,9 @@
 namespace drumlin::post {
 
 /// What the chain's runs have in common.
-constexpr int accuracy_cycles = 30;            ///< of each run
-constexpr int accuracy_window = steady_cycles; ///< the last cycles, over which errors count
-constexpr int accuracy_samples = 50;           ///< rows per cycle
+constexpr int accuracy_cycles = 30;                  ///< of each run
+constexpr int accuracy_window = steady_error_cycles; ///< the last cycles, over which errors count
+constexpr int accuracy_samples = 50;                 ///< rows per cycle
 
 /// The errors of a run of the chain; NaN where they were not measured.
 struct ChainErrors {

@@ -161,17 +161,17 @@ StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &p
 }
 
 std::string outside_of_tests(const ChainParameters &parameters, const std::vector<ScalingPoint> &points) {
-  struct Quantity {
+  struct Tested {
     const char *name;
     const char *unit;
     double (*of)(const ChainParameters &);
   };
-  const Quantity quantities[] = {
+  const Tested quantities[] = {
       {"sqrt(k/m2)", " rad/s", [](const ChainParameters &p) { return std::sqrt(p.k / p.m2); }},
       {"omega", " rad/s", [](const ChainParameters &p) { return p.omega; }},
       {"D", "", [](const ChainParameters &p) { return p.D; }}};
   std::string text;
-  for (const Quantity &quantity : quantities) {
+  for (const Tested &quantity : quantities) {
     double low = std::numeric_limits<double>::infinity(), high = 0.0;
     for (const ScalingPoint &point : points) {
       low = std::min(low, quantity.of(point.parameters));

@@ -31,8 +31,8 @@ namespace {
 /// The largest number of cycles that in.chain allows.
 constexpr int most_cycles = 10'000'000;
 
-struct Arguments : Options {
-  explicit Arguments(Command &of) : Options(of) {
+struct AdviseArguments : Options {
+  explicit AdviseArguments(Command &of) : Options(of) {
     only_with(bed, {&question, &within}, "with --bed");
     for (const Option *option : all_of_command())
       if (option != &from && option != &question && option != &within) not_with(bed, {option});
@@ -65,15 +65,15 @@ struct Measure {
   ErrorMeasure measure;
   const char *words;
 };
-constexpr std::array<Measure, 3> measures = {
+constexpr std::array<Measure, 3> known_measures = {
     {{"velocity", ErrorMeasure::velocity, "relative RMS error of the drum's velocity"},
      {"force", ErrorMeasure::force, "relative error of the peak contact force"},
      {"acceleration", ErrorMeasure::acceleration, "relative error of the drum's peak acceleration"}}};
 
 const Measure &measure_of(const Text &name) {
-  const auto *const found =
-      std::find_if(measures.begin(), measures.end(), [&](const Measure &m) { return name.text() == m.name; });
-  if (found == measures.end()) throw name.refused("velocity, force, acceleration");
+  const auto *const found = std::find_if(known_measures.begin(), known_measures.end(),
+                                         [&](const Measure &m) { return name.text() == m.name; });
+  if (found == known_measures.end()) throw name.refused("velocity, force, acceleration");
   return *found;
 }
 
@@ -147,7 +147,7 @@ void tell_scatter(const BedExperiment &experiment, const BedQuestion &request) {
   }
 }
 
-void advise_on_bed(const Arguments &arguments) {
+void advise_on_bed(const AdviseArguments &arguments) {
   BedQuestion request;
   const Question &question = question_of(arguments.question);
   request.name = question.name;
@@ -186,7 +186,7 @@ void advise_on_bed(const Arguments &arguments) {
     fmt::print("  run        {} {}\n", front_command(), words);
 }
 
-void advise_on_chain(const Arguments &arguments) {
+void advise_on_chain(const AdviseArguments &arguments) {
   AdviceRequest request;
   const AskedChain asked = judged_chain(arguments.chain);
   request.parameters = asked.parameters;
@@ -246,7 +246,7 @@ void advise_on_chain(const Arguments &arguments) {
              front_command(), deck_words(arguments.chain), request.stepping, cycles, advice.steps_per_cycle);
 }
 
-void run(const Arguments &arguments) {
+void run(const AdviseArguments &arguments) {
   if (arguments.bed)
     advise_on_bed(arguments);
   else
@@ -256,7 +256,7 @@ void run(const Arguments &arguments) {
 } // namespace
 
 void add_advise_command(CLI::App &app, Session &session) {
-  add_command(
+  add_command<AdviseArguments>(
       app, session, "advise",
       "Steps per cycle that a run of the chain needs for an error, by the measured curves of the accuracy "
       "study; for other chains than the measured ones scaled, with a margin. With --bed the cheapest scene "

@@ -50,8 +50,8 @@ struct BedRequest {
   std::filesystem::path out = "results/bed/balls.data"; ///< its folder is made if missing
 };
 
-constexpr Range side = {PackingOptions::length_range.least, PackingOptions::length_range.most, "m"};
-constexpr Range side_or_zero = {side.least, side.most, "m", true};
+constexpr Range box_side = {PackingOptions::length_range.least, PackingOptions::length_range.most, "m"};
+constexpr Range side_or_zero = {box_side.least, box_side.most, "m", true};
 
 /// More would need more types than the engine's neighbour lists are made for; a road has half a dozen layers.
 constexpr std::size_t most_layers = 10;
@@ -61,8 +61,8 @@ std::string usual(Value PackingOptions::*value) {
   return fmt::format("{}", PackingOptions().*value);
 }
 
-struct Arguments : Options {
-  explicit Arguments(Command &of) : Options(of) {
+struct BedArguments : Options {
+  explicit BedArguments(Command &of) : Options(of) {
     only_with(sieve, {&cut});
     for (const Option *option : std::initializer_list<const Option *>{&radius_min, &radius_max, &grading})
       not_with(*option, {&sieve}, "without " + option->name() + ": the curve says the sizes");
@@ -73,7 +73,8 @@ struct Arguments : Options {
   }
   Count balls =
       count("--balls", 1, PackingOptions::most_balls, "number of balls", usual(&PackingOptions::balls));
-  Number width = number("--width", side, "width of the box [m], wall to wall", usual(&PackingOptions::width));
+  Number width =
+      number("--width", box_side, "width of the box [m], wall to wall", usual(&PackingOptions::width));
   Number depth =
       number("--depth", side_or_zero, "depth of the box [m]; 0: two dimensions, the balls are discs",
              usual(&PackingOptions::depth));
@@ -167,7 +168,7 @@ void set_grading(PackingOptions &options, const SieveCurve &curve, const std::st
 }
 
 /// Sets the sizes of the balls from `--sieve` and `--cut`.
-void judge_sieve(const Arguments &arguments, BedRequest &request) {
+void judge_sieve(const BedArguments &arguments, BedRequest &request) {
   if (!arguments.sieve) return;
   const auto [curve, name] = asked_grading("--sieve", *arguments.sieve);
   request.asked = curve;
@@ -186,7 +187,7 @@ std::string of_layer(const Texts &option, std::size_t layer, std::size_t layers)
 }
 
 /// Friction and rolling friction of the settled soil: --friction and --rolling, or those of case base.
-SoilFriction asked_friction(const Arguments &arguments) {
+SoilFriction asked_friction(const BedArguments &arguments) {
   SoilFriction soil;
   soil.friction = arguments.friction.value_or(soil.friction);
   soil.rolling = arguments.rolling.value_or(soil.rolling);
@@ -194,7 +195,7 @@ SoilFriction asked_friction(const Arguments &arguments) {
 }
 
 /// The packings in a file that --packings names.
-MeasuredPackings given_packings(const std::string &file, const Arguments &arguments,
+MeasuredPackings given_packings(const std::string &file, const BedArguments &arguments,
                                 const PackingOptions &box) {
   const fs::path path = path_option("--packings", file);
   if (!fs::exists(path))
@@ -230,7 +231,7 @@ std::optional<MeasuredPackings> stored_packings(const SoilFriction &soil, const 
 
 /// Says of each layer how it is poured to get the relative density that is asked for. An engine makes
 /// packings that are not known.
-void pour_layers(const Arguments &arguments, BedRequest &request) {
+void pour_layers(const BedArguments &arguments, BedRequest &request) {
   const std::size_t layers = request.layers.size();
   if (!arguments.relative_densities) return;
   const SoilFriction soil = asked_friction(arguments);
@@ -269,13 +270,13 @@ void pour_layers(const Arguments &arguments, BedRequest &request) {
 
 /// The n-th layer from THICKNESS[:SIEVE[:CUT]]. \param box what the layer shares with the others; its number
 /// of balls is the layer's share of --balls
-BedRequest::Layer asked_layer(const Arguments &arguments, std::size_t n, const PackingOptions &box) {
+BedRequest::Layer asked_layer(const BedArguments &arguments, std::size_t n, const PackingOptions &box) {
   const std::string &text = (*arguments.layers)[n];
   std::vector<std::string> parts;
   boost::split(parts, text, [](char letter) { return letter == ':'; });
   constexpr std::size_t most_parts = 3;
   if (parts.size() > most_parts) throw arguments.layers.refused(text, "THICKNESS[:SIEVE[:CUT]]");
-  BedRequest::Layer layer{{box, number_option("--layer", parts[0], side)}, {}};
+  BedRequest::Layer layer{{box, number_option("--layer", parts[0], box_side)}, {}};
   if (parts.size() > 1) {
     const auto [curve, name] = asked_grading("--layer", parts[1]);
     layer.asked = curve;
@@ -292,7 +293,7 @@ BedRequest::Layer asked_layer(const Arguments &arguments, std::size_t n, const P
 
 /// Refuses options that have no effect with these layers: the number of balls decides where a sieve curve is
 /// cut that has no cut of its own, and radii are those of layers without a curve.
-void judge_effects(const Arguments &arguments) {
+void judge_effects(const BedArguments &arguments) {
   const auto any_has = [&arguments](std::ptrdiff_t parts) {
     return std::any_of(arguments.layers.begin(), arguments.layers.end(), [parts](const std::string &layer) {
       return std::count(layer.begin(), layer.end(), ':') + 1 == parts;
@@ -309,7 +310,7 @@ void judge_effects(const Arguments &arguments) {
 }
 
 /// Sets the spots from `--spot`, in the order of the way.
-void judge_spots(const Arguments &arguments, BedRequest &request) {
+void judge_spots(const BedArguments &arguments, BedRequest &request) {
   if (request.layers.size() + arguments.spots->size() > most_layers)
     throw arguments.spots.refused(arguments.spots->back(),
                                   fmt::format("at most {} layers and spots", most_layers));
@@ -352,7 +353,7 @@ BedRequest::Layer only_layer(const BedRequest &request) {
 }
 
 /// Sets the layers from `--layer`.
-void judge_layers(const Arguments &arguments, BedRequest &request) {
+void judge_layers(const BedArguments &arguments, BedRequest &request) {
   if (!arguments.layers) {
     if (arguments.relative_densities) request.layers.push_back(only_layer(request));
     return;
@@ -381,7 +382,7 @@ std::vector<std::string> grading_files(const fs::path &out) {
 }
 
 /// Refuses results in the place of a curve that is read.
-void keep_curves(const Arguments &arguments, const fs::path &out) {
+void keep_curves(const BedArguments &arguments, const fs::path &out) {
   std::vector<GivenPath> curves;
   const auto add = [&curves](const char *option, const std::string &text) {
     if (find_grading(text) == nullptr) curves.push_back({option, path_option(option, text)});
@@ -568,7 +569,7 @@ void write_bed(const BedRequest &request) {
              (folder / (figure + ".png")).lexically_normal().string());
 }
 
-void run(const Arguments &arguments) {
+void run(const BedArguments &arguments) {
   BedRequest request;
   PackingOptions &options = request.packing;
   options.balls = *arguments.balls;
@@ -596,10 +597,10 @@ void run(const Arguments &arguments) {
 } // namespace
 
 void add_bed_command(CLI::App &app, Session &session) {
-  add_command(app, session, "bed",
-              "Soil balls at random in a box, none touching another, as the data file that "
-              "inputs/bed/in.settle reads. The same options give the same file on any machine.",
-              run);
+  add_command<BedArguments>(app, session, "bed",
+                            "Soil balls at random in a box, none touching another, as the data file that "
+                            "inputs/bed/in.settle reads. The same options give the same file on any machine.",
+                            run);
 }
 
 } // namespace drumlin::post

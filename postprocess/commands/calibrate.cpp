@@ -46,7 +46,7 @@ std::string meanings(const Table &table) {
   return text;
 }
 
-struct Arguments : Options {
+struct CalibrateArguments : Options {
   using Options::Options;
   Texts targets = texts(
       "--target", "TARGET",
@@ -103,7 +103,7 @@ void set_roller(const GivenRoller &roller, CalibrationTask &task) {
     if (!task.fixed_value(name)) task.fixed.emplace_back(name, number_text(value));
 }
 
-CalibrationTask judged_task(const Arguments &arguments, const std::optional<GivenRoller> &roller) {
+CalibrationTask judged_task(const CalibrateArguments &arguments, const std::optional<GivenRoller> &roller) {
   CalibrationTask task;
   for (const std::string &text : arguments.targets)
     task.targets.push_back(target_from_text(text));
@@ -198,7 +198,7 @@ std::vector<LumpedComparison> compared_records(const CalibrationTask &task, cons
   return compared;
 }
 
-void run(const Arguments &arguments) {
+void run(const CalibrateArguments &arguments) {
   std::optional<GivenRoller> roller = judged(arguments.roller);
   const CalibrationTask task = judged_task(arguments, roller);
   CalibrationEffort effort;
@@ -253,7 +253,7 @@ void run(const Arguments &arguments) {
 } // namespace
 
 void add_calibrate_command(CLI::App &app, Session &session) {
-  add_command(
+  add_command<CalibrateArguments>(
       app, session, "calibrate",
       "Parameters of a bed's contacts with which it meets targets: stiffness and damping that a roller "
       "feels, settlement, plate modulus, friction angle. Runs the decks on beds of several seeds, and writes "

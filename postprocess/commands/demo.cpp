@@ -40,15 +40,15 @@ namespace {
 constexpr int chain_cycles = 120;
 constexpr int bed_cycles = 10, bed_balls = 1800;
 /// Fewer balls would not keep the drum from the floor.
-constexpr int least_balls = 300;
+constexpr int least_demo_balls = 300;
 /// The narrowest box, m: the drum is 0.7 m wide.
 constexpr double least_width = 1.0;
 
 constexpr const char *results_folder = "results/demo";
-constexpr const char *page_folder = "report";
+constexpr const char *report_folder = "report";
 constexpr const char *commands_name = "commands.sh";
 
-struct Arguments : Options {
+struct DemoArguments : Options {
   using Options::Options;
   Count cycles =
       count("--cycles", 1, 10'000'000,
@@ -56,9 +56,9 @@ struct Arguments : Options {
                         "does not judge the chain by reference values",
                         chain_cycles, bed_cycles));
   Count balls = count(
-      "--balls", least_balls, PackingOptions::most_balls,
+      "--balls", least_demo_balls, PackingOptions::most_balls,
       fmt::format("soil balls of the bed, {} or more; {} if not given. The box gets narrower with fewer",
-                  least_balls, bed_balls));
+                  least_demo_balls, bed_balls));
 };
 
 enum class Kind {
@@ -78,7 +78,7 @@ struct Step {
 };
 
 /// All steps, in their order, as a user would type them.
-std::vector<Step> steps_of(const Arguments &arguments, bool with_lammps) {
+std::vector<Step> steps_of(const DemoArguments &arguments, bool with_lammps) {
   const bool few_cycles = arguments.cycles.given(), drives = !few_cycles && !arguments.balls;
   const PackingOptions usual;
   const int balls = arguments.balls.value_or(bed_balls);
@@ -95,7 +95,7 @@ std::vector<Step> steps_of(const Arguments &arguments, bool with_lammps) {
                          fmt::arg("bed_cycles", arguments.cycles.value_or(bed_cycles)),
                          fmt::arg("balls", balls), fmt::arg("width", number_text(width)),
                          fmt::arg("k_count", few_cycles ? 8 : 40), fmt::arg("D_count", few_cycles ? 5 : 25),
-                         fmt::arg("quick", few_cycles ? "--quick" : ""), fmt::arg("page", page_folder));
+                         fmt::arg("quick", few_cycles ? "--quick" : ""), fmt::arg("page", report_folder));
     };
     Step &step = steps.emplace_back(Step{filled(name), {}, kind, filled(printed)});
     std::istringstream words(command);
@@ -279,14 +279,14 @@ private:
   std::future<void> beside_;
 };
 
-void run(const Arguments &arguments) {
+void run(const DemoArguments &arguments) {
   if (const std::string fault = engine_fault(Engine::liggghts); !fault.empty()) throw UsageError(fault);
   if (::access(".", W_OK) != 0)
     throw UsageError(fmt::format(
         "results and report are written to the working folder '{}'; allowed: one that can be written",
         fs::current_path().string()));
   keep_apart({}, {{"the folder", results_folder, true},
-                  {"the report", output_folder_option("report", page_folder), true}});
+                  {"the report", output_folder_option("report", report_folder), true}});
   std::signal(SIGPIPE, SIG_IGN); // print() reports a closed pipe
   bool with_lammps = engine_fault(Engine::lammps).empty();
   if (with_lammps)
@@ -308,7 +308,7 @@ void run(const Arguments &arguments) {
                     drives ? "some four minutes on two cores" : "a minute or less for short runs"));
   write_files({{results / commands_name, script_of(steps)}});
   Demo(steps).run();
-  print(fmt::format("The report: {}\n", (fs::current_path() / page_folder / "index.html").string()));
+  print(fmt::format("The report: {}\n", (fs::current_path() / report_folder / "index.html").string()));
   print(fmt::format("The bed, for ParaView: {0}/bed/A/vtk and {0}/bed/B/vtk, the .pvd files\n"
                     "The commands of these steps: {0}/{1}\n",
                     results_folder, commands_name));
@@ -317,7 +317,7 @@ void run(const Arguments &arguments) {
 } // namespace
 
 void add_demo_command(CLI::App &app, Session &session) {
-  add_command(
+  add_command<DemoArguments>(
       app, session, "demo",
       "Runs the single impact, the four cases of the paper and a roller on a bed, under transition A and B; "
       "the cases in LAMMPS, too, if it is set up. Maps the roller's regimes and what its meter says of the "

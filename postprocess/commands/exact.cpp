@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Arguments : Options {
-  explicit Arguments(Command &of) : Options(of) {
+struct ExactArguments : Options {
+  explicit ExactArguments(Command &of) : Options(of) {
     only_with(way, {&speed, &passes}, "a number with --way FILE");
     only_with(way, {&turn_round}, "none without --way FILE");
     only_with(contacts, {&turn_round}, "none without --contacts: the drum has no sides");
@@ -69,7 +69,7 @@ struct Arguments : Options {
 };
 
 /// A roller that drives.
-struct Drive {
+struct DriveAsked {
   Way way;
   double speed = 0.0; ///< [m/s]
   int passes = 1;
@@ -84,9 +84,9 @@ struct Ends {
   std::vector<std::string> assumed;
 };
 
-struct Task {
+struct ExactTask {
   ChainParameters parameters;
-  std::optional<Drive> drive;
+  std::optional<DriveAsked> drive;
   std::optional<Ends> ends;
   std::optional<double> me_re; ///< kg m, from which Fw follows; none: Fw is given
   std::optional<GivenRoller> roller;
@@ -98,10 +98,10 @@ constexpr std::array<const char *, 4> file_names = {"chain.csv", "events.csv", "
                                                     "parameters.csv"};
 
 /// The roller that drives, if it does, and its time in the options.
-std::optional<Drive> judge_drive(const Arguments &arguments, const ChainParameters &parameters,
-                                 ExactOptions &options) {
+std::optional<DriveAsked> judge_drive(const ExactArguments &arguments, const ChainParameters &parameters,
+                                      ExactOptions &options) {
   if (!arguments.way) return std::nullopt;
-  Drive drive;
+  DriveAsked drive;
   if (arguments.turn_round) drive.back = WayBack::turned_round;
   try {
     drive.way = read_way(*arguments.way, arguments.contacts.given());
@@ -128,7 +128,7 @@ std::optional<Drive> judge_drive(const Arguments &arguments, const ChainParamete
 }
 
 /// Refuses options that do not go with --contacts.
-void judge_with_contacts(const Arguments &arguments, bool file) {
+void judge_with_contacts(const ExactArguments &arguments, bool file) {
   if (arguments.way && file) throw arguments.contacts.refused("a whole number with --way, which has k and D");
   if (arguments.tilt && *arguments.impact_speed > 0.0)
     throw arguments.tilt.refused("none with --impact-speed");
@@ -138,7 +138,7 @@ void judge_with_contacts(const Arguments &arguments, bool file) {
 }
 
 /// The drum with two ends, if it is asked for.
-std::optional<Ends> judge_ends(const Arguments &arguments, const AskedChain &chain,
+std::optional<Ends> judge_ends(const ExactArguments &arguments, const AskedChain &chain,
                                const ExactOptions &options) {
   if (!arguments.contacts) return std::nullopt;
   const std::string &contacts = *arguments.contacts;
@@ -182,8 +182,8 @@ std::optional<Ends> judge_ends(const Arguments &arguments, const AskedChain &cha
   return ends;
 }
 
-Task judge(const Arguments &arguments) {
-  Task task;
+ExactTask judge(const ExactArguments &arguments) {
+  ExactTask task;
   const AskedChain chain = judged_chain(arguments.chain);
   task.parameters = chain.parameters;
   task.me_re = chain.me_re;
@@ -212,7 +212,8 @@ Task judge(const Arguments &arguments) {
   return task;
 }
 
-std::vector<std::pair<std::string, std::string>> record(const Arguments &arguments, const Task &task) {
+std::vector<std::pair<std::string, std::string>> record(const ExactArguments &arguments,
+                                                        const ExactTask &task) {
   const ChainParameters &p = task.parameters;
   std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
   values.insert(values.begin(), {{"deck", "exact"}, {"case", *arguments.chain.chain_case}});
@@ -261,8 +262,8 @@ std::vector<std::pair<std::string, std::string>> record(const Arguments &argumen
   return values;
 }
 
-void run(const Arguments &arguments) {
-  const Task task = judge(arguments);
+void run(const ExactArguments &arguments) {
+  const ExactTask task = judge(arguments);
   if (task.roller)
     for (const std::string &line : task.roller->lines(task.parameters.g))
       fmt::print("{}\n", line);
@@ -315,7 +316,7 @@ void run(const Arguments &arguments) {
 } // namespace
 
 void add_exact_command(CLI::App &app, Session &session) {
-  add_command(
+  add_command<ExactArguments>(
       app, session, "exact",
       "Solve the chain soil - drum - frame without an engine, in closed form. Writes chain.csv, events.csv, "
       "cycles.csv and parameters.csv.",

@@ -27,7 +27,7 @@ namespace {
 
 constexpr const char *table_name = "identify.csv";
 
-struct Arguments : Options {
+struct IdentifyArguments : Options {
   using Options::Options;
   RecordArguments record{command()};
   Flag accelerations_only =
@@ -73,7 +73,7 @@ private:
   }
 };
 
-RecordSetting judge(const Arguments &arguments) {
+RecordSetting judge(const IdentifyArguments &arguments) {
   RecordSetting setting;
   setting.accelerations_only = arguments.accelerations_only.given();
   if (arguments.origin)
@@ -82,9 +82,9 @@ RecordSetting judge(const Arguments &arguments) {
   if (arguments.phase_within || arguments.record.phase)
     setting.phase_within = pi / 180.0 * arguments.phase_within.value_or(usual_degrees);
   if (arguments.least_force) setting.least_force = 0.01 * *arguments.least_force;
-  constexpr int most_cycles = 1000000;
+  constexpr int most_window = 1000000;
   if (!window_length(*arguments.window))
-    setting.window = count_option("--window", *arguments.window, least_cycles, most_cycles);
+    setting.window = count_option("--window", *arguments.window, least_cycles, most_window);
   return setting;
 }
 
@@ -118,7 +118,7 @@ fs::path judged_folder(const ResultPath &out) {
 }
 
 /// The tolerances that were given, half widths of 95 %; else those of the roller's file.
-MachineTolerances judge_tolerances(const Arguments &arguments, const Record &record) {
+MachineTolerances judge_tolerances(const IdentifyArguments &arguments, const Record &record) {
   const auto share = [](const Number &given, double of_file) { return given ? 0.01 * *given : of_file; };
   const MachineTolerances &file = record.tolerances;
   const bool with_force = record.excitation_read || !record.Fw;
@@ -205,7 +205,7 @@ Laws machine_parts(const RecordArguments &arguments, const WayRange &way, const 
   return parts;
 }
 
-void make_parent_of(const fs::path &place, const Arguments &arguments) {
+void make_parent_of(const fs::path &place, const IdentifyArguments &arguments) {
   try {
     make_output_folder(place.parent_path());
   } catch (const std::runtime_error &error) {
@@ -216,8 +216,8 @@ void make_parent_of(const fs::path &place, const Arguments &arguments) {
 /// Writes the page and the tables, either all or none of them, and prints the answer. \param page a function
 /// that writes the page into a folder
 template <class Found, class Page>
-void publish(const Arguments &arguments, const fs::path &place, const Record &record, const Found &found,
-             const Page &page) {
+void publish(const IdentifyArguments &arguments, const fs::path &place, const Record &record,
+             const Found &found, const Page &page) {
   make_parent_of(place, arguments);
   FolderInProgress draft(place);
   page(draft.path());
@@ -231,8 +231,9 @@ void publish(const Arguments &arguments, const fs::path &place, const Record &re
 }
 
 /// A record of both ends of the drum.
-void run_two_sided(const Arguments &arguments, const RecordArguments &asked, const RecordSetting &setting,
-                   const fs::path &place, const Record &record, const WayRange &way) {
+void run_two_sided(const IdentifyArguments &arguments, const RecordArguments &asked,
+                   const RecordSetting &setting, const fs::path &place, const Record &record,
+                   const WayRange &way) {
   const char *const allowed = "not given for a record of both ends of the drum";
   if (arguments.compare) throw UsageError(refusal("--compare", "", allowed));
   for (const Text *option : {&arguments.origin, &arguments.record.logger_low_pass})
@@ -256,7 +257,7 @@ void run_two_sided(const Arguments &arguments, const RecordArguments &asked, con
   fmt::print("{}\n", (*arguments.out / "index.html").string());
 }
 
-void run(const Arguments &arguments) {
+void run(const IdentifyArguments &arguments) {
   RecordSetting setting = judge(arguments);
   const WayRange way = judged(arguments.way);
   const fs::path place = judged_folder(arguments.out);
@@ -314,18 +315,19 @@ void run(const Arguments &arguments) {
 } // namespace
 
 void add_identify_command(CLI::App &app, Session &session) {
-  add_command(app, session, "identify",
-              "Stiffness k, damping c and D of the contact between drum and soil, with 95 % confidence "
-              "intervals, and whether the contact pulls, from the motion of drum and frame. Writes a page "
-              "with plots, and identify.csv.",
-              run,
-              "Examples:\n"
-              "  drumlin identify results/chain\n"
-              "  drumlin identify results/bed/B --compare --window 5 --out results/identify-bed\n"
-              "  drumlin identify measured.csv --column 'a_drum=Acc drum:g' --column 'a_frame=Acc frame:g' "
-              "--sampling-rate 1000 --frequency 29 --phase 90 --phase-within 1 --me-re 7.31 --m2 3962 --m3 "
-              "3379\n"
-              "  drumlin identify measured.csv --roller inputs/rollers/CA3500 --setting high\n");
+  add_command<IdentifyArguments>(
+      app, session, "identify",
+      "Stiffness k, damping c and D of the contact between drum and soil, with 95 % confidence "
+      "intervals, and whether the contact pulls, from the motion of drum and frame. Writes a page "
+      "with plots, and identify.csv.",
+      run,
+      "Examples:\n"
+      "  drumlin identify results/chain\n"
+      "  drumlin identify results/bed/B --compare --window 5 --out results/identify-bed\n"
+      "  drumlin identify measured.csv --column 'a_drum=Acc drum:g' --column 'a_frame=Acc frame:g' "
+      "--sampling-rate 1000 --frequency 29 --phase 90 --phase-within 1 --me-re 7.31 --m2 3962 --m3 "
+      "3379\n"
+      "  drumlin identify measured.csv --roller inputs/rollers/CA3500 --setting high\n");
 }
 
 } // namespace drumlin::post

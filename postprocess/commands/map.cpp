@@ -27,8 +27,8 @@ namespace {
 constexpr int most_values = 2000; ///< per axis
 constexpr int least_cycles = 100; ///< fewer do not let a motion settle
 
-struct Arguments : Options {
-  explicit Arguments(Command &of) : Options(of) {
+struct MapArguments : Options {
+  explicit MapArguments(Command &of) : Options(of) {
     constexpr const char *of_map = "without --x and --y, which are those of a map";
     not_with(x, {&sweep}, of_map);
     not_with(y, {&sweep}, of_map);
@@ -61,7 +61,7 @@ struct Arguments : Options {
   Flag fresh = flag("--fresh", "forget the points of an earlier call");
 };
 
-struct Task : MapTask {
+struct AskedMap : MapTask {
   std::optional<GivenRoller> given_roller;
   bool along = false; ///< along x alone: what the meter shows
 };
@@ -93,7 +93,7 @@ void judge_corner(const ChainArguments &arguments, const ChainParameters &parame
 }
 
 /// The drum with two ends. Refuses one that cannot be solved at the corners of the axes.
-EndsFamily judge_contacts(int contacts, const Task &task) {
+EndsFamily judge_contacts(int contacts, const AskedMap &task) {
   EndsFamily family;
   family.chain = task.grid.chain;
   family.contacts = contacts;
@@ -124,8 +124,8 @@ EndsFamily judge_contacts(int contacts, const Task &task) {
   return family;
 }
 
-Task judge(const Arguments &arguments) {
-  Task task;
+AskedMap judge(const MapArguments &arguments) {
+  AskedMap task;
   MapGrid &grid = task.grid;
   const AskedChain chain = judged_chain(arguments.chain);
   task.given_roller = chain.roller;
@@ -193,7 +193,7 @@ Task judge(const Arguments &arguments) {
   return task;
 }
 
-std::string settings(const Task &task) {
+std::string settings(const AskedMap &task) {
   const MapGrid &grid = task.grid;
   const auto words = [](const MapAxis &axis) {
     return fmt::format("{}:{}:{}:{}{}", axis.name, number_text(axis.from), number_text(axis.to), axis.count,
@@ -235,8 +235,8 @@ std::string settings(const Task &task) {
   return parameters_text(values);
 }
 
-void run(const Arguments &arguments) {
-  const Task task = judge(arguments);
+void run(const MapArguments &arguments) {
+  const AskedMap task = judge(arguments);
   const std::string record = settings(task);
   const ResumedFolder folder(task.out, "map", record, arguments.fresh.given());
   write_files({{task.out / map_record_name, record}});
@@ -256,13 +256,14 @@ void run(const Arguments &arguments) {
 } // namespace
 
 void add_map_command(CLI::App &app, Session &session) {
-  add_command(app, session, "map",
-              "Which motion a roller comes to, over two numbers of the chain "
-              "or along one: continuous contact, partial uplift, period 2 (double jump), higher period, "
-              "aperiodic; CMV, RMV, peak force and share of contact. With --x alone all that its meter "
-              "shows, where a value means several stiffnesses, and what identify finds. "
-              "Writes CSV files and plots. An interrupted map continues where it was interrupted.",
-              run);
+  add_command<MapArguments>(
+      app, session, "map",
+      "Which motion a roller comes to, over two numbers of the chain "
+      "or along one: continuous contact, partial uplift, period 2 (double jump), higher period, "
+      "aperiodic; CMV, RMV, peak force and share of contact. With --x alone all that its meter "
+      "shows, where a value means several stiffnesses, and what identify finds. "
+      "Writes CSV files and plots. An interrupted map continues where it was interrupted.",
+      run);
 }
 
 } // namespace drumlin::post

@@ -21,7 +21,7 @@ namespace {
 constexpr const char *values_name = "meter.csv";
 constexpr const char *shown_name = "first_second.csv"; // in the folder of --show
 
-struct Arguments : Options {
+struct MeterArguments : Options {
   using Options::Options;
   RecordArguments record{command()};
   Flag show = flag("--show", "only print how the file was understood and draw its first second");
@@ -41,7 +41,7 @@ struct Arguments : Options {
       result_folder("--out", "folder of meter.csv and the page; an earlier one is replaced", "results/meter");
 };
 
-struct Task {
+struct MeterTask {
   MeterOptions options;
   std::optional<double> window_seconds, window_metres; ///< instead of a number of cycles
   WayRange way;
@@ -51,7 +51,7 @@ struct Task {
 constexpr int longest_window = 1000000;
 
 /// The window: an even number of cycles, or seconds with an 's' behind them.
-void take_window(const std::string &text, Task &task) {
+void take_window(const std::string &text, MeterTask &task) {
   constexpr const char *allowed =
       "an even whole number of cycles from 4 to 1000000 (RMV needs whole periods of half the "
       "excitation frequency), seconds such as 0.5s, or of a roller that drives metres such as 0.5m";
@@ -78,8 +78,8 @@ fs::path checked_out(const ResultPath &asked) {
   return out;
 }
 
-Task judge(const Arguments &arguments) {
-  Task task;
+MeterTask judge(const MeterArguments &arguments) {
+  MeterTask task;
   if (arguments.window) take_window(*arguments.window, task);
   MeterOptions &options = task.options;
   options.rmv_constant = *arguments.rmv_constant;
@@ -138,8 +138,8 @@ void show(const Record &record, const fs::path &out) {
   fmt::print("{}\n", (out / "index.html").string());
 }
 
-void run(const Arguments &arguments) {
-  Task task = judge(arguments);
+void run(const MeterArguments &arguments) {
+  MeterTask task = judge(arguments);
   if (arguments.show) {
     RecordArguments record = arguments.record;
     record.guess = true;
@@ -192,19 +192,20 @@ void run(const Arguments &arguments) {
 } // namespace
 
 void add_meter_command(CLI::App &app, Session &session) {
-  add_command(app, session, "meter",
-              "What the meter of a roller shows, from a record of its "
-              "motion: harmonics of the drum's acceleration, CMV, RMV, "
-              "stiffness k_B, modulus E_vib, energy and operating mode "
-              "over windows of whole cycles. Writes meter.csv and a "
-              "page with plots.",
-              run,
-              "Examples:\n"
-              "  drumlin meter results/my-run\n"
-              "  drumlin meter results/my-run/chain.csv --window 0.5s --out results/meter-samples\n"
-              "  drumlin meter field.csv --column 'time=Time:ms' --column 'a_drum=Acc Z:-g' --frequency 29 "
-              "--low-pass 200 \\\n"
-              "      --window 20");
+  add_command<MeterArguments>(
+      app, session, "meter",
+      "What the meter of a roller shows, from a record of its "
+      "motion: harmonics of the drum's acceleration, CMV, RMV, "
+      "stiffness k_B, modulus E_vib, energy and operating mode "
+      "over windows of whole cycles. Writes meter.csv and a "
+      "page with plots.",
+      run,
+      "Examples:\n"
+      "  drumlin meter results/my-run\n"
+      "  drumlin meter results/my-run/chain.csv --window 0.5s --out results/meter-samples\n"
+      "  drumlin meter field.csv --column 'time=Time:ms' --column 'a_drum=Acc Z:-g' --frequency 29 "
+      "--low-pass 200 \\\n"
+      "      --window 20");
 }
 
 } // namespace drumlin::post

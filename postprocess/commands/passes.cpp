@@ -21,7 +21,7 @@ namespace {
 constexpr const char *page_folder = "passes"; // in the folder of the results
 constexpr const char *usual_out = "results/passes";
 
-struct Arguments : Options {
+struct PassesArguments : Options {
   using Options::Options;
   Texts folders =
       words("FOLDER", "TEXT",
@@ -52,15 +52,15 @@ struct Arguments : Options {
                            page_folder, usual_out));
 };
 
-struct Task {
+struct PassesTask {
   std::vector<fs::path> folders;
   PassesOptions options;
   AcceptanceRule rule;
   fs::path out;
 };
 
-Task judge(const Arguments &arguments) {
-  Task task;
+PassesTask judge(const PassesArguments &arguments) {
+  PassesTask task;
   task.rule.coverage = 0.01 * *arguments.coverage;
   task.rule.target = arguments.target.value();
   for (const std::string &text : arguments.folders) {
@@ -104,8 +104,8 @@ void check_sample(const Drive &drive, const std::vector<PassesResult> &others) {
                               other.folder.string(), why)));
 }
 
-void run(const Arguments &arguments) {
-  const Task task = judge(arguments);
+void run(const PassesArguments &arguments) {
+  const PassesTask task = judge(arguments);
   std::vector<PassesResult> results;
   for (const fs::path &folder : task.folders) {
     const Drive drive = read_drive(folder);
@@ -150,16 +150,17 @@ void run(const Arguments &arguments) {
 } // namespace
 
 void add_passes_command(CLI::App &app, Session &session) {
-  add_command(app, session, "passes",
-              "What each pass of a roller that drives over a bed leaves: settlement, how much of it is "
-              "compaction, solid fraction of each layer, heave, energy, meter values along the way, profiles "
-              "over depth, rules of acceptance. Writes passes.csv, way.csv, surface.csv, depth.csv, "
-              "acceptance.csv and a page.",
-              run,
-              "Examples:\n"
-              "  drumlin passes results/drive\n"
-              "  drumlin passes results/drive-1 results/drive-2 results/drive-3 --out results/seeds\n"
-              "  drumlin passes results/drive --target 30 --coverage 70");
+  add_command<PassesArguments>(
+      app, session, "passes",
+      "What each pass of a roller that drives over a bed leaves: settlement, how much of it is "
+      "compaction, solid fraction of each layer, heave, energy, meter values along the way, profiles "
+      "over depth, rules of acceptance. Writes passes.csv, way.csv, surface.csv, depth.csv, "
+      "acceptance.csv and a page.",
+      run,
+      "Examples:\n"
+      "  drumlin passes results/drive\n"
+      "  drumlin passes results/drive-1 results/drive-2 results/drive-3 --out results/seeds\n"
+      "  drumlin passes results/drive --target 30 --coverage 70");
 }
 
 } // namespace drumlin::post

@@ -14,7 +14,7 @@ namespace drumlin::post {
 
 namespace {
 
-struct Arguments : Options {
+struct ReportArguments : Options {
   using Options::Options;
   Texts folders =
       words("dir", "DIR",
@@ -25,7 +25,7 @@ struct Arguments : Options {
       result_folder("--out", "folder for the report; an earlier report there is replaced", "report");
 };
 
-void run(const Arguments &arguments) {
+void run(const ReportArguments &arguments) {
   ReportOptions options;
   for (const std::string &folder : arguments.folders)
     options.folders.push_back(path_option("DIR", folder));
@@ -48,11 +48,11 @@ void run(const Arguments &arguments) {
 } // namespace
 
 void add_report_command(CLI::App &app, Session &session) {
-  add_command(app, session, "report",
-              "Figures, tables and checks against reference values from "
-              "runs of the chain, of drums with two ends, of single impacts and of a "
-              "roller on a bed, as pages that open from disk.",
-              run);
+  add_command<ReportArguments>(app, session, "report",
+                               "Figures, tables and checks against reference values from "
+                               "runs of the chain, of drums with two ends, of single impacts and of a "
+                               "roller on a bed, as pages that open from disk.",
+                               run);
 }
 
 } // namespace drumlin::post

@@ -35,8 +35,8 @@ constexpr int most_jobs = 1000;
 constexpr int least_balls = 100;
 constexpr int most_balls = 1000000;
 
-struct Arguments : Options {
-  explicit Arguments(Command &of) : Options(of) { not_with(page_only, {&part}); }
+struct StudyArguments : Options {
+  explicit StudyArguments(Command &of) : Options(of) { not_with(page_only, {&part}); }
   Text name = text("NAME", "TEXT",
                    "one of the studies below, or the file of a plan of your own (inputs/study/plans.md)");
   ResultPath out = result_folder("--out", "folder of the results; if not given, results/study/NAME");
@@ -121,7 +121,7 @@ std::string settings_of(const Plan &plan) {
   return settings;
 }
 
-StudyOptions judged(const Arguments &arguments, const std::string &name) {
+StudyOptions judged(const StudyArguments &arguments, const std::string &name) {
   StudyOptions options;
   options.fresh = arguments.fresh.given();
   options.quick = arguments.quick.given();
@@ -161,7 +161,7 @@ std::vector<ResumedFolder> hold_parts(const StudyOptions &options, const std::st
   return held;
 }
 
-void run_plan(const Arguments &arguments) {
+void run_plan(const StudyArguments &arguments) {
   const fs::path file = plan_file(arguments.name.text());
   const int jobs = arguments.jobs.value_or(1), balls = arguments.balls.value_or(0);
   StudyOptions options = judged(arguments, study_name(file));
@@ -196,7 +196,7 @@ void run_plan(const Arguments &arguments) {
   run_experiment(plan, options.out, how);
 }
 
-void run_study(const Study &study, const Arguments &arguments) {
+void run_study(const Study &study, const StudyArguments &arguments) {
   for (const Option *option :
        std::initializer_list<const Option *>{&arguments.jobs, &arguments.balls, &arguments.part})
     if (*option) throw option->refused("with a study that is a plan of beds");
@@ -208,7 +208,7 @@ void run_study(const Study &study, const Arguments &arguments) {
   study.run(options);
 }
 
-void run(const Arguments &arguments) {
+void run(const StudyArguments &arguments) {
   for (const Study &study : other_studies())
     if (arguments.name.text() == study.name) return run_study(study, arguments);
   run_plan(arguments);
@@ -241,7 +241,7 @@ void add_study_command(CLI::App &app, Session &session) {
       "Others:\n";
   for (const Study &study : other_studies())
     footer += fmt::format("  {:<10} {}\n", study.name, study.summary);
-  add_command(
+  add_command<StudyArguments>(
       app, session, "study",
       "Measures what steps, laws and options cost and what they bring, and what differs between scenes of "
       "a plan. An interrupted study continues where it was interrupted.",

@@ -39,7 +39,7 @@ namespace {
 /// balls in a cell.
 constexpr double default_cell = 3.0;
 
-struct Arguments : Options {
+struct VtkArguments : Options {
   using Options::Options;
   Text folder = text("dir", "DIR", "folder of the run, with dump/ and parameters.csv", required);
   ResultPath out = result_folder("--out", "folder for the results, made if missing; DIR/vtk if not given");
@@ -334,7 +334,7 @@ std::string scene_text(const Bed &bed, const RunParameters &run, const Sizes &si
   return scene.dump(1) + "\n";
 }
 
-void run(const Arguments &arguments) {
+void run(const VtkArguments &arguments) {
   const fs::path folder = path_option("DIR", *arguments.folder);
   const fs::path out =
       arguments.out ? *arguments.out : output_folder_option("--out", (folder / "vtk").string());
@@ -398,11 +398,11 @@ void run(const Arguments &arguments) {
 } // namespace
 
 void add_vtk_command(CLI::App &app, Session &session) {
-  add_command(app, session, "vtk",
-              "Balls, contacts and coarse-grained fields of a bed run as time "
-              "series for ParaView: balls.pvd, contacts.pvd, "
-              "fields.pvd, from the dumps of a run with dumps.",
-              run);
+  add_command<VtkArguments>(app, session, "vtk",
+                            "Balls, contacts and coarse-grained fields of a bed run as time "
+                            "series for ParaView: balls.pvd, contacts.pvd, "
+                            "fields.pvd, from the dumps of a run with dumps.",
+                            run);
 }
 
 } // namespace drumlin::post

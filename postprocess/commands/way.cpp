@@ -10,7 +10,7 @@ namespace drumlin::post {
 
 namespace {
 
-struct Arguments : Options {
+struct RandomWayArguments : Options {
   using Options::Options;
   Number mean = number("--mean", {1e-3, 1e12, "N/m"}, "mean of k [N/m]", required);
   Number variation = number("--variation", {1e-6, 10.0, "", true},
@@ -29,7 +29,7 @@ struct Arguments : Options {
   ResultPath out = result_file("--out", "CSV file to write", required);
 };
 
-void run(const Arguments &arguments) {
+void run(const RandomWayArguments &arguments) {
   RandomSoil soil;
   soil.mean = *arguments.mean;
   soil.variation = *arguments.variation;
@@ -54,11 +54,12 @@ void run(const Arguments &arguments) {
 } // namespace
 
 void add_way_command(CLI::App &app, Session &session) {
-  add_command(app, session, "way",
-              "Write a way, the soil that a roller meets, for `exact --way`: k is a random field along it, "
-              "log-normal, whose logarithm is correlated as exp(-distance/length). The same options give the "
-              "same way.",
-              run);
+  add_command<RandomWayArguments>(
+      app, session, "way",
+      "Write a way, the soil that a roller meets, for `exact --way`: k is a random field along it, "
+      "log-normal, whose logarithm is correlated as exp(-distance/length). The same options give the "
+      "same way.",
+      run);
 }
 
 } // namespace drumlin::post

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <string>
@@ -23,8 +22,6 @@ namespace drumlin::post {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 class RunParameters {
 public:
@@ -81,7 +78,7 @@ double steady_velocity_error(const fs::path &folder) {
   const ExactChain known(folder);
   const std::vector<double> &reference = known.exact.history.v_drum;
   return rms_error(folder, v_drum_of(folder), reference,
-                   reference.size() - 1 - steady_cycles * known.samples_per_cycle);
+                   reference.size() - 1 - steady_error_cycles * known.samples_per_cycle);
 }
 
 double way_error(const fs::path &folder) {
@@ -102,20 +99,20 @@ double event_time_error(const fs::path &folder) {
   const ExactChain known(folder);
   const EventMatch match = match_events(read_events(folder / "events.csv"), known.exact.events);
   const bool all = match.matched == match.reference_count && match.run_count == match.reference_count;
-  return all ? match.largest_difference / known.chain.period() : none;
+  return all ? match.largest_difference / known.chain.period() : no_number;
 }
 
 SteadyExtremes steady_extremes_of(const fs::path &folder, const ExactChain &known) {
   const auto cycles = static_cast<int>(known.exact.cycles.size());
   return steady_extremes(read_chain(folder / "chain.csv"), read_events(folder / "events.csv"),
                          read_cycle_columns(folder / "cycles.csv"), known.chain,
-                         last_cycles_window(cycles, steady_cycles, known.chain.period()), steady_cycles);
+                         last_cycles_window(cycles, steady_error_cycles, known.chain.period()), steady_error_cycles);
 }
 
 template <class Of>
 double largest_of_last(const ExactChain &known, const Of &of) {
   double most = 0.0;
-  for (std::size_t i = known.exact.cycles.size() - steady_cycles; i < known.exact.cycles.size(); ++i)
+  for (std::size_t i = known.exact.cycles.size() - steady_error_cycles; i < known.exact.cycles.size(); ++i)
     most = std::max(most, of(known.exact.cycles[i]));
   return most;
 }
@@ -164,7 +161,7 @@ std::vector<double> rebound_errors(const fs::path &folder) {
 
 double largest_rebound_error(const fs::path &folder) {
   const std::vector<double> errors = rebound_errors(folder);
-  return errors.empty() ? none : *std::max_element(errors.begin(), errors.end());
+  return errors.empty() ? no_number : *std::max_element(errors.begin(), errors.end());
 }
 
 double rms_rebound_error(const fs::path &folder) {

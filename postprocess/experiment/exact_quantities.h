@@ -2,9 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 namespace drumlin::post {
+
+/// The value that a run does not give.
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A function of the folder of a run, which has its CSV files and parameters.csv.
 struct ExactQuantity {
@@ -14,6 +18,6 @@ struct ExactQuantity {
 const std::vector<ExactQuantity> &exact_quantities();
 
 /// The last cycles of a run of the chain, over which its steady errors count.
-constexpr int steady_cycles = 5;
+constexpr int steady_error_cycles = 5;
 
 } // namespace drumlin::post

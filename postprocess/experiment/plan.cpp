@@ -57,7 +57,7 @@ bool is_continued(const std::string &text) {
          std::string(blanks).find(text[text.size() - 2]) != std::string::npos;
 }
 
-std::vector<std::string> words_of(const std::string &text) {
+std::vector<std::string> words_in(const std::string &text) {
   std::vector<std::string> words;
   std::istringstream in(text);
   for (std::string word; in >> word;)
@@ -326,7 +326,7 @@ private:
   void take_note() { plan_.notes.push_back(value_); }
 
   void take_quantity() {
-    const std::vector<std::string> words = words_of(value_);
+    const std::vector<std::string> words = words_in(value_);
     constexpr std::size_t own = 5;
     Quantity quantity;
     if (words.size() == 1) {
@@ -458,7 +458,7 @@ private:
     constexpr const char *allowed =
         "VARIABLE DECK OUTPUT NAME=VALUE ..., VARIABLE of the scene's deck, OUTPUT "
         "and NAME of DECK, which makes the file";
-    const std::vector<std::string> words = words_of(value_);
+    const std::vector<std::string> words = words_in(value_);
     if (words.size() < 3 || !is_name(words[0]) || !is_name(words[2])) refuse(allowed);
     if (seen_.insert(keyword_).second) scene().made.clear(); // those of the scene above
     MadeFile made{words[0], {}, words[2], {}};
@@ -522,7 +522,7 @@ private:
   }
   void take_layer() {
     if (seen_.insert(keyword_).second) bed().layers.clear(); // those of the scene above
-    const std::vector<std::string> words = words_of(value_);
+    const std::vector<std::string> words = words_in(value_);
     const std::optional<double> thickness = any_number_from_text(words[0]);
     const bool has_density = words.size() == 3 && words[1] == "relative_density";
     const double density = has_density ? any_number_from_text(words[2]).value_or(NAN) : 0.0;
@@ -543,7 +543,7 @@ private:
   }
   void take_spot() {
     if (seen_.insert(keyword_).second) bed().spots.clear(); // those of the scene above
-    const std::vector<std::string> words = words_of(value_);
+    const std::vector<std::string> words = words_in(value_);
     const auto number = [&](std::size_t n) { return any_number_from_text(words[n]).value_or(NAN); };
     const double least = bed().spots.empty() ? -PackingOptions::length_range.most : bed().spots.back().to;
     if (words.size() != 2 || !(number(0) >= least) || !(number(1) > number(0)))
@@ -554,7 +554,7 @@ private:
 
   // What the page draws.
   void take_at() {
-    const std::vector<std::string> words = words_of(value_);
+    const std::vector<std::string> words = words_in(value_);
     const auto axis = std::find_if(plan_.axes.begin(), plan_.axes.end(),
                                    [&](const Axis &one) { return !words.empty() && one.name == words[0]; });
     double place = words.size() == 2 ? any_number_from_text(words[1]).value_or(NAN) : NAN;
@@ -591,7 +591,7 @@ private:
   void take_over() {
     only_in_scene();
     const char *const allowed = "NAME VALUE VALUE ..., or NAME,NAME VALUE,VALUE ...: variables of the deck";
-    std::vector<std::string> words = words_of(value_);
+    std::vector<std::string> words = words_in(value_);
     Sweep &over = sweeps_.back() = {parts_of(words.front(), ','), {}, {}};
     for (std::size_t n = 1; n < words.size(); ++n) {
       over.values.push_back(parts_of(words[n], ','));
@@ -609,7 +609,7 @@ private:
 
   // Known values.
   void take_expect() {
-    const std::vector<std::string> words = words_of(value_);
+    const std::vector<std::string> words = words_in(value_);
     constexpr std::size_t own = 4;
     if (words.size() == 1) {
       if (in_scene_) refuse("QUANTITY VALUE TOLERANCE SOURCE; a file before the first scene");
@@ -624,7 +624,7 @@ private:
     if (!has_quantity(words[0])) refuse("QUANTITY VALUE TOLERANCE SOURCE, a quantity of the plan");
     if (seen_.insert(keyword_).second) scene().expected.clear();  // those of the scene above
     const std::vector<std::string> parts = parts_of(value_, '|'); // with a scene that is the scale
-    const std::vector<std::string> source = words_of(parts.front());
+    const std::vector<std::string> source = words_in(parts.front());
     scene().expected.push_back({words[0], *value, 1.0, *tolerance,
                                 fmt::format("{}", fmt::join(source.begin() + 3, source.end(), " ")),
                                 parts.size() > 1 ? parts[1] : std::string()});
@@ -651,7 +651,7 @@ private:
   void take_table() {
     constexpr const char *allowed = "NAME.csv COLUMN COLUMN ..., COLUMN a quantity above, an axis above or a "
                                     "variable of the deck, or HEADER=COLUMN";
-    const std::vector<std::string> words = words_of(value_);
+    const std::vector<std::string> words = words_in(value_);
     const fs::path file = words.front();
     if (words.size() < 2 || file.has_parent_path() || file.extension() != ".csv" ||
         !is_name(file.stem().string()) || file == results_name)
@@ -669,7 +669,7 @@ private:
   }
 
   void take_at_most() {
-    const std::vector<std::string> words = words_of(value_);
+    const std::vector<std::string> words = words_in(value_);
     const double factor = any_number_from_text(words.front()).value_or(NAN);
     const std::set<std::string> quantities(words.size() > 2 ? words.begin() + 2 : words.end(), words.end());
     if (quantities.empty() ||

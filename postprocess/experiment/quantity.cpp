@@ -15,17 +15,12 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 namespace drumlin::post {
-
-namespace {
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-}
 
 /// The files of a run, each read and identified when a quantity first needs it.
 class RunFiles {
@@ -141,7 +136,7 @@ std::function<double(RunFiles &)> of_column(const std::string &file, const std::
   return [file, column, way](RunFiles &run) {
     const Table &table = run.table(file);
     const std::vector<double> values = known_numbers(table, column);
-    if (values.empty() && table.rows() > 0) return none;
+    if (values.empty() && table.rows() > 0) return no_number;
     if (values.size() < way.rows)
       csv_fault(table.file(), 0, column,
                 fmt::format("has {} rows; allowed: {} or more", values.size(), way.rows));
@@ -185,7 +180,7 @@ std::function<double(RunFiles &)> share_of_heat(const char *column) {
   return [column](RunFiles &run) {
     const Table &cycles = cycles_of(run);
     const double all = gain_of(energy_of(cycles, heats));
-    return all > 0.0 ? gain_of(energy_of(cycles, std::array{column})) / all : none;
+    return all > 0.0 ? gain_of(energy_of(cycles, std::array{column})) / all : no_number;
   };
 }
 
@@ -194,7 +189,7 @@ std::function<double(RunFiles &)> share_of_heat(const char *column) {
 double released_of(RunFiles &run) {
   const Table &cycles = cycles_of(run);
   const double work = gain_of(cycles.numbers("work_excitation"));
-  return work > 0.0 ? -gain_of(energy_of(cycles, stores)) / work : none;
+  return work > 0.0 ? -gain_of(energy_of(cycles, stores)) / work : no_number;
 }
 
 /// Energy error since the start over the work of the exciter.
@@ -203,7 +198,7 @@ double energy_error_of(RunFiles &run) {
   const std::vector<double> work = cycles.numbers("work_excitation"), stored = energy_of(cycles, stores),
                             heat = energy_of(cycles, heats);
   const double done = work.back() - work.front();
-  return done > 0.0 ? (stored.back() - stored.front() + heat.back() - heat.front()) / done - 1.0 : none;
+  return done > 0.0 ? (stored.back() - stored.front() + heat.back() - heat.front()) / done - 1.0 : no_number;
 }
 
 /// A part of the law that identification finds.
@@ -211,7 +206,7 @@ template <class Part>
 std::function<double(RunFiles &)> of_law(Part part) {
   return [part](RunFiles &run) {
     const std::optional<IdentifiedRecord> &found = run.identified();
-    return found ? part(found->whole) : none;
+    return found ? part(found->whole) : no_number;
   };
 }
 
@@ -223,7 +218,7 @@ std::function<double(RunFiles &)> per_metre(std::function<double(RunFiles &)> va
 double cmv_of(RunFiles &run) {
   MeterOptions options;
   options.window = 4; // the shortest
-  return meter_windows(meter_cycles(run.record()), options).back().cmv.value_or(none);
+  return meter_windows(meter_cycles(run.record()), options).back().cmv.value_or(no_number);
 }
 
 constexpr double relative_tolerance = 0.1;

@@ -24,10 +24,10 @@ namespace drumlin::post {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<double, 3> sides = {-1.0, 0.0, 1.0};
+constexpr std::array<double, 3> side_of_place = {-1.0, 0.0, 1.0};
 constexpr std::array<const char *, 3> places = {"left end", "middle", "right end"};
 constexpr std::size_t middle_place = 1;
-constexpr const char *section = "ends";
+constexpr const char *ends_section = "ends";
 
 /// Rows of the last `count` complete cycles: the first, and the one behind the last.
 struct RowRange {
@@ -120,7 +120,7 @@ void take_meters(EndsResult &result) {
 }
 
 /// What the figure of a run shows: three cycles, or six of a motion that repeats every two.
-int shown_cycles(const EndsResult &result) {
+int cycles_drawn(const EndsResult &result) {
   constexpr int usual = 3;
   return std::min(result.run.complete, result.repeats == 2 ? 2 * usual : usual);
 }
@@ -129,7 +129,7 @@ PageFigure figure_of(const EndsResult &result, std::size_t number) {
   const Run &run = result.run;
   const ChainHistory &h = run.history;
   const std::string name = fmt::format("ends_{}", number);
-  const int shown = shown_cycles(result);
+  const int shown = cycles_drawn(result);
   RowRange rows = last_rows(run, shown);
   rows.end = std::min(rows.end + 1, h.size()); // the row that ends the last cycle
   const double begin = h.time[rows.first], y = result.half_width.value_or(nan);
@@ -153,7 +153,7 @@ PageFigure figure_of(const EndsResult &result, std::size_t number) {
   Panel motion = panel_of("Height of the drum", "height (mm)");
   for (std::size_t p = 0; p < places.size(); ++p) {
     if (p != middle_place && !result.half_width) continue;
-    const double at = p == middle_place ? 0.0 : sides[p] * y;
+    const double at = p == middle_place ? 0.0 : side_of_place[p] * y;
     put(places[p], [&](std::size_t i) { return 1e3 * height(h, i, at); });
     line(motion, places[p], styles[p], places[p]);
   }
@@ -179,7 +179,7 @@ PageFigure figure_of(const EndsResult &result, std::size_t number) {
   }
   const double error = std::abs(result.error()[0]); // the page opens with the largest ones
   PageFigure figure{
-      section,
+      ends_section,
       fmt::format("Fig. {}", number),
       fmt::format("Run {} over {}{}: height of the drum above where the whole drum just touches the soil, "
                   "tilt of drum and frame (positive: the right end is higher), force of the soil below each "
@@ -254,14 +254,15 @@ void add_error_figure(const EndsResult &result, std::size_t number, FigurePlan &
   const std::string label = fmt::format("Fig. {}", number), name = "ends_error";
   const std::optional<WholeSoil> soil = soil_of(result);
   if (!result.machine || !result.half_width || !soil) {
-    plan.absent.push_back({section, label,
+    plan.absent.push_back({ends_section, label,
                            fmt::format("{} does not say width, inertia and bonds of the machine and the "
                                        "stiffness of the whole soil",
                                        result.run.name)});
     return;
   }
   const auto refuse = [&](const std::string &fault) {
-    plan.absent.push_back({section, label, fmt::format("{} cannot be solved: {}", result.run.name, fault)});
+    plan.absent.push_back(
+        {ends_section, label, fmt::format("{} cannot be solved: {}", result.run.name, fault)});
   };
   TwoEnds machine = *result.machine;
   machine.chain = result.run.chain;
@@ -302,7 +303,7 @@ void add_error_figure(const EndsResult &result, std::size_t number, FigurePlan &
   panel.add(curve(name, "contact is lost", "$2", "3", CurveStyle::mark_1),
             "contact is lost: apparent values");
   plan.figures.push_back(
-      {section,
+      {ends_section,
        label,
        fmt::format(
            "Machine of run {} on halves that share k = {:.4g} MN/m and c = {:.4g} kN s/m, {} contacts, "
@@ -330,7 +331,7 @@ PageTable motion_table(const std::vector<EndsResult> &results) {
       "(mm) | tilt (mrad) | time without contact, left half (-) | time without contact, right half "
       "(-) | repeats after (cycles) | last cycles (-)",
       2);
-  table.section = section;
+  table.section = ends_section;
   for (const EndsResult &result : results) {
     const Run &run = result.run;
     std::vector<std::string> row = {run.name, transition_name(run.transition())};
@@ -363,7 +364,7 @@ PageTable meter_table(const std::vector<EndsResult> &results) {
       "run | transition | k_1, left end (MN/m) | k_1, middle (MN/m) | k_1, right end (MN/m) | "
       "error, left end (%) | error, right end (%) | k_1, left half (MN/m) | k_1, right half (MN/m)",
       2);
-  table.section = section;
+  table.section = ends_section;
   for (const EndsResult &result : results) {
     std::vector<std::string> row = {result.run.name, transition_name(result.run.transition())};
     for (const double k : result.stiffness())
@@ -391,7 +392,7 @@ PageTable meter_table(const std::vector<EndsResult> &results) {
 }
 
 /// "22 % more".
-std::string percent(double value) {
+std::string percent_text(double value) {
   return fmt::format("{:.0f} % {}", 100.0 * std::abs(value), value < 0.0 ? "less" : "more");
 }
 
@@ -446,7 +447,7 @@ EndsResult analyse_ends(Run run) {
     const RowRange rows = last_rows(r, result.cycles);
     for (std::size_t p = 0; p < places.size(); ++p)
       result.amplitude[p] =
-          amplitude_of(r, rows, p == middle_place ? 0.0 : sides[p] * result.half_width.value_or(nan));
+          amplitude_of(r, rows, p == middle_place ? 0.0 : side_of_place[p] * result.half_width.value_or(nan));
     result.tilt = half_range(r.history.theta_drum, last_rows(r, 2));
     result.no_contact = {share_without_force(r.history.F_left, rows),
                          share_without_force(r.history.F_right, rows)};
@@ -462,7 +463,7 @@ FigurePlan plan_ends_figures(const std::vector<EndsResult> &results) {
     if (results[i].cycles > 0)
       plan.figures.push_back(figure_of(results[i], i + 1));
     else
-      plan.absent.push_back({section, fmt::format("Fig. {}", i + 1),
+      plan.absent.push_back({ends_section, fmt::format("Fig. {}", i + 1),
                              fmt::format("{} ends before its first complete cycle", results[i].run.name)});
   if (const EndsResult *told = told_run(results)) add_error_figure(*told, results.size() + 1, plan);
   return plan;
@@ -490,7 +491,7 @@ Answer ends_answer(const std::vector<EndsResult> &results) {
       {fmt::format(
            "A meter at the left end of a drum that tilts shows {} stiffness than one in the middle, a "
            "meter at the right end {} (run {}{}).",
-           percent(left), percent(right), told->run.name,
+           percent_text(left), percent_text(right), told->run.name,
            results.size() == 1 ? "" : fmt::format(", one of {}", results.size())),
        "Two ends."});
   for (const std::string &line : lines)
@@ -505,9 +506,10 @@ std::string ends_page(const ReportContent &content) {
       "the drum, each of which is made and broken by itself. A sensor at one end then shows another soil "
       "than one in the middle, and after a turn round that of the other end.</p>\n";
   for (const PageTable &table : content.tables)
-    if (table.section == section) numbers += table_html(table);
+    if (table.section == ends_section) numbers += table_html(table);
   page.section("numbers", "Numbers", numbers);
-  page.section(section, "Motion and forces of both ends", section_html(content.ends_figures, section));
+  page.section(ends_section, "Motion and forces of both ends",
+               section_html(content.ends_figures, ends_section));
   page.section("runs", "Commands and versions",
                commands_and_versions(content.ends, report_programs(content.versions)));
   return page.html("A drum with two ends", content.versions);

@@ -23,7 +23,7 @@ namespace {
 using CyclicRun = ElementRun<LoopRow>;
 
 constexpr double percent = 100.0;
-const std::vector<std::string> varied = {"amplitude", "cycles", "samples_of_way"};
+const std::vector<std::string> varied_in_cycles = {"amplitude", "cycles", "samples_of_way"};
 
 /// The amplitude asked for, in percent.
 double amplitude_of(const CyclicRun &run) {
@@ -226,7 +226,7 @@ PageWriter read_cyclic_shear_page(const std::vector<fs::path> &folders) {
   for (const CyclicRun &run : runs)
     qualities.push_back(quality_beside(run));
   return [=](const fs::path &out) {
-    const std::vector<SoilGroup> soils = soils_of(runs, varied);
+    const std::vector<SoilGroup> soils = soils_of(runs, varied_in_cycles);
     Page page(out, cyclic_shear_title, Drawing::shear);
     page.answer(
         "Samples of soil between two rough plates, periodic sideways, sheared to and fro under a constant "
