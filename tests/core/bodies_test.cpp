@@ -1,22 +1,11 @@
 // What acts on whole bodies (plugin/physics/bodies): bond, tilting body, travel, exciter, absorbing boundary.
 #include "tests/support/ode.h"
 #include "tests/support/oscillator.h"
-
 #include "physics/bodies/absorbing_boundary.h"
 #include "physics/bodies/bond_law.h"
 #include "physics/bodies/excitation.h"
 #include "physics/bodies/tilting_body.h"
 #include "physics/bodies/travel.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace {
 

@@ -1,15 +1,6 @@
 /// The forces of a block of contacts have the same bits as those of its contacts one by one.
-
-#include "physics/scheme/contact_block.h"
-
 #include "tests/core/law_samples.h"
-
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <cstring>
-#include <memory>
-#include <random>
+#include "physics/scheme/contact_block.h"
 
 namespace {
 

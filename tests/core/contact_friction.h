@@ -1,7 +1,7 @@
 #pragma once
 /// Friction of one contact, step by step, for tests of whole impacts: as compute_tangential_stiffness() and
 /// compute_friction() do it for a block of contacts.
-
+#include "tests/support/prelude.h"
 #include "physics/scheme/advance.h"
 #include "physics/laws/friction_law.h"
 

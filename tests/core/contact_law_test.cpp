@@ -1,27 +1,28 @@
-// What all contact laws share: their values in an instant, mixing, suction, and values that are not allowed.
+// Contact laws: the linear one, that of Hertz, and the one that yields.
 #include "tests/core/vectors.h"
 #include "tests/core/velocity_verlet.h"
-
+#include "tests/support/ode.h"
 #include "physics/bodies/absorbing_boundary.h"
 #include "physics/bodies/bond_law.h"
 #include "physics/bodies/excitation.h"
 #include "physics/laws/contact_mixing.h"
+#include "physics/laws/friction_law.h"
 #include "physics/laws/hertz_contact.h"
 #include "physics/laws/laws.h"
 #include "physics/laws/linear_contact.h"
+#include "physics/laws/rolling_law.h"
+#include "physics/laws/yield_contact.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <boost/math/tools/minima.hpp>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <string>
+#include <boost/math/special_functions/zeta.hpp>
 
+namespace drumlin::test {
 namespace {
 
 using namespace drumlin::physics;
+
+// What all contact laws share: their values in an instant, mixing, suction, and values that are not allowed.
+namespace contact_law {
 
 // The contact laws instant by instant: what all have in common; of the linear law closed forms, definitions
 // and identities. Whole impacts are in law_impact_test.
@@ -395,10 +396,354 @@ TEST(ParameterChecks, OfARange) {
   const Range share{-1.0, true, 0.5};
   EXPECT_TRUE(share.contains(0.5));
   EXPECT_FALSE(share.contains(-1.0));
-  EXPECT_EQ(detail::text_of(share), "a finite number > -1 and <= 0.5");
-  EXPECT_EQ(detail::text_of(Range::any), "a finite number");
+  EXPECT_EQ(physics::detail::text_of(share), "a finite number > -1 and <= 0.5");
+  EXPECT_EQ(physics::detail::text_of(Range::any), "a finite number");
 }
 
 } // namespace checks
 
+} // namespace contact_law
+
+/// The Hertz law: its definitions; its tangential and its rolling spring, whose stiffness follows the
+/// overlap. Whole impacts are in law_impact_test and oblique_impact_test.
+namespace hertz_contact {
+
+constexpr double k = 1e8, m = 2000.0, radius = 0.04;
+constexpr double E_eff = 0.75 * k / 0.2; // of 4/3 E* sqrt(R) = k
+
+TEST(HertzLaw, IsItsFormula) {
+  for (const double d : {1e-8, 1e-4, 1e-2})
+    for (const double rate : {-1.0, 0.0, 0.3}) {
+      const double force = k * std::pow(d, 1.5) + 3e5 * std::pow(d, 0.25) * rate;
+      EXPECT_NEAR(HertzLaw(k, 3e5, Transition::A).force(d, rate), force, 1e-12 * std::fabs(force));
+    }
+}
+
+// Johnson, Contact Mechanics (1985), Eqs. (4.22) to (4.24) and (7.43): a steel ball of 10 mm radius on one of
+// 20 mm.
+TEST(HertzLaw, HasTheStiffnessOfTwoSpheres) {
+  HertzContact contact;
+  contact.set_moduli(210e9, 0.3, 70e9, 0.33);
+  const double E = 1.0 / ((1.0 - 0.09) / 210e9 + (1.0 - 0.33 * 0.33) / 70e9), R = 0.02 / 3.0, d = 5e-6;
+  const double a = std::sqrt(R * d); // radius of the area of contact
+  const HertzLaw law = contact.law(1.0, R);
+  EXPECT_NEAR(law.spring(d), 4.0 * E * a * a * a / (3.0 * R), 1e-12 * law.spring(d));
+  EXPECT_NEAR(law.slope(d), 2.0 * E * a, 1e-12 * law.slope(d));
+  const double G1 = 210e9 / 2.6, G2 = 70e9 / 2.66;
+  const double tangential = 8.0 * a / ((2.0 - 0.3) / G1 + (2.0 - 0.33) / G2);
+  EXPECT_NEAR(contact.tangential(d, R), tangential, 1e-12 * tangential);
+  EXPECT_GT(contact.tangential(0.0, R), 0.0);
+}
+
+/// A spring of a contact whose stiffness follows the overlap, in the steps of the scheme: that of friction
+/// without a limit or, if `rolls`, that of rolling resistance.
+class VaryingSpring {
+public:
+  VaryingSpring(const HertzContact &contact, bool rolls, double dt)
+      : contact_(contact), rolls_(rolls), dt_(dt) {}
+
+  /// One step that ends at an overlap, m, which has changed at a rate, m/s.
+  /// \param moved slip velocity, m/s, or relative angular velocity, rad/s
+  /// \returns force, N, or torque, N m, that opposes it
+  Vec3 step(double overlap, double rate, const Vec3 &moved, double ct = 0.0, double limit = 1e12) {
+    const Vec3 normal{0.0, 0.0, 1.0};
+    const double kt = contact_.tangential(overlap_of_spring(overlap, rate, dt_), radius);
+    const double kept = rolls_ ? kept_torque(stiffness_, kt) : kept_spring(stiffness_, kt);
+    for (double &part : spring_)
+      part *= kept;
+    stiffness_ = kt;
+    const Rolling rolling = rolling_of(kt, limit, radius);
+    stored_after_change = 0.5 * dot(spring_, spring_) * (rolls_ ? 1.0 / rolling.stiffness : kt);
+    if (rolls_) {
+      const RollingStep now = rolling_step(rolling, 1.0, normal, moved, spring_, dt_);
+      spring_ = now.spring;
+      stored = now.stored;
+      return now.torque;
+    }
+    const FrictionStep now = friction_step({kt, ct, limit, Cap::coulomb}, 1.0, normal, moved, spring_, dt_);
+    spring_ = now.spring;
+    stored = now.stored;
+    return now.force;
+  }
+
+  double stored = 0.0;              ///< energy in the spring after the step, J
+  double stored_after_change = 0.0; ///< the same after the change of the stiffness, before the motion
+
+private:
+  const HertzContact contact_;
+  const bool rolls_;
+  const double dt_;
+  double stiffness_ = 0.0;
+  Vec3 spring_{};
+};
+
+/// A slip that oscillates on the tangential spring of a contact whose overlap oscillates, too, by the steps
+/// of the scheme, or by CVODE if dt is 0; if `rolls`, a rotation on the rolling spring, times the radius. The
+/// inertia is the mass of the slip times the radius squared, so that the equations of both are the same.
+/// \param ct dashpot of the slip, N s/m
+double slip_of_lasting_contact(double ct, double dt, bool rolls = false) {
+  const HertzContact contact{E_eff, 0.4 * E_eff, 0.0, Damping::ratio, Transition::B};
+  constexpr double depth = 1e-3, swing = 0.3, m_t = 2.0 / 7.0 * m;
+  const double kt0 = contact.tangential(depth, radius), w = 1.3 * std::sqrt(kt0 / m_t), end = 10.0 / w;
+  const auto overlap = [&](double t) { return depth * (1.0 + swing * std::sin(w * t)); };
+  if (dt == 0.0) {
+    const auto rate = [&](double t) { return depth * swing * w * std::cos(w * t); };
+    oracle::Ode motion(
+        [&](double t, const oracle::State &y, oracle::State &f) {
+          const double d = overlap(t);
+          f[0] = -(y[1] + ct * y[0]) / m_t;
+          f[1] = contact.tangential(d, radius) * y[0] + (rate(t) < 0.0 ? 0.5 * y[1] * rate(t) / d : 0.0);
+        },
+        0.0, {1e-3, 0.0}, {1e-3, 1e-3 * kt0 / w});
+    for (int turn = 0; (turn + 0.5) * M_PI < 10.0; ++turn) // where the overlap begins to shrink or to grow
+      motion.advance((turn + 0.5) * M_PI / w);
+    motion.advance(end);
+    return motion.state()[0];
+  }
+  const long steps = std::lround(end / dt);
+  const double lever = rolls ? radius : 1.0;
+  VaryingSpring spring(contact, rolls, dt);
+  double slip = 1e-3, force = 0.0;
+  for (long n = 1; n <= steps; ++n) {
+    const double half_slip = slip + 0.5 * dt * force / m_t, now = static_cast<double>(n) * dt;
+    const double rate = (overlap(now) - overlap(now - dt)) / dt;
+    force = spring.step(overlap(now), rate, {half_slip / lever, 0.0, 0.0}, ct)[0] / lever;
+    slip = half_slip + 0.5 * dt * force / m_t;
+  }
+  return slip;
+}
+
+// Only the tangential dashpot, which acts with the slip of the middle of the step, is of first order there.
+TEST(HertzTangentialSpring, IsOfSecondOrderInALastingContact) {
+  const double w = 1.3 * std::sqrt(8.0 * 0.4 * E_eff * std::sqrt(radius * 1e-3) / (2.0 / 7.0 * m));
+  for (const double share : {0.0, 0.1}) {
+    const double ct = share * m * w, exact = slip_of_lasting_contact(ct, 0.0);
+    const auto error = [&](int steps) {
+      return std::fabs(slip_of_lasting_contact(ct, 10.0 / w / steps) - exact);
+    };
+    const double coarse = error(400), fine = error(3200);
+    EXPECT_LT(fine, 1e-3 * 5e-3) << share;
+    EXPECT_NEAR(std::log(coarse / fine) / std::log(8.0), share > 0.0 ? 1.0 : 2.0, 0.1)
+        << share << ": " << coarse << " " << fine;
+  }
+}
+
+TEST(HertzRollingSpring, IsOfSecondOrderInALastingContact) {
+  const double w = 1.3 * std::sqrt(8.0 * 0.4 * E_eff * std::sqrt(radius * 1e-3) / (2.0 / 7.0 * m));
+  const double exact = slip_of_lasting_contact(0.0, 0.0);
+  const auto error = [&](int steps) {
+    return std::fabs(slip_of_lasting_contact(0.0, 10.0 / w / steps, true) - exact);
+  };
+  const double coarse = error(400), fine = error(3200);
+  EXPECT_LT(fine, 1e-3 * 5e-3);
+  EXPECT_NEAR(std::log(coarse / fine) / std::log(8.0), 2.0, 0.1) << coarse << " " << fine;
+}
+
+// Loaded from 1 to 4 mm while it turns at w, T = w kr(d)/d' integrated over d; then unloaded to 1 mm without
+// turning, which halves kr and, at the same angle, T.
+TEST(HertzRollingSpring, KeepsItsTorqueWhileItIsLoadedAndItsAngleWhileItIsUnloaded) {
+  const HertzContact contact{E_eff, 0.4 * E_eff, 0.0, Damping::ratio, Transition::B};
+  constexpr double w = 0.2, speed = 1.0, thin = 1e-3, deep = 4e-3;
+  const double exact = w / speed * 8.0 * 0.4 * E_eff * std::sqrt(radius) * radius * radius * 2.0 / 3.0 *
+                       (std::pow(deep, 1.5) - std::pow(thin, 1.5));
+  const auto torque = [&](int steps) {
+    const double dt = (deep - thin) / speed / steps;
+    VaryingSpring spring(contact, true, dt);
+    double loaded = 0.0, unloaded = 0.0;
+    for (int n = 1; n <= steps; ++n)
+      loaded = -spring.step(thin + n * dt * speed, speed, {w, 0.0, 0.0})[0];
+    for (int n = 1; n <= steps; ++n)
+      unloaded = -spring.step(deep - n * dt * speed, -speed, {0.0, 0.0, 0.0})[0];
+    // The last step of loading had the stiffness of its middle.
+    EXPECT_NEAR(unloaded, std::sqrt(thin / (deep - 0.5 * dt * speed)) * loaded, 1e-12 * loaded);
+    return loaded;
+  };
+  const double coarse = torque(100) - exact, fine = torque(400) - exact;
+  EXPECT_LT(std::fabs(fine), 1e-6 * exact);
+  EXPECT_NEAR(coarse / fine, 16.0, 0.5);
+}
+
+/// Whatever path overlap and rotation or slip take, the work done on the spring and its slider is at least
+/// the energy in it. \param most of rotation about x and y or of slip \param limit of the force or torque at
+/// an overlap, in the runs with an even number; the others have none that is reached
+template <class Limit>
+void expect_no_energy_from(bool rolls, unsigned seed, const Vec3 &most, const Limit &limit) {
+  const HertzContact contact{E_eff, 0.4 * E_eff, 0.0, Damping::coefficient, Transition::B};
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const double dt = 1e-4;
+  for (int run = 0; run < 200; ++run) {
+    VaryingSpring spring(contact, rolls, dt);
+    double stored = 0.0, overlap = 1e-3;
+    for (int n = 0; n < 500; ++n) {
+      const double rate = 4.0 * unit(random);
+      overlap = std::fmax(1e-6, overlap + dt * rate);
+      const Vec3 motion{most[0] * unit(random), most[1] * unit(random), most[2] * unit(random)};
+      const Vec3 load =
+          spring.step(overlap, rate, motion, 0.0, run % 2 == 0 ? limit(contact, overlap) : 1e12);
+      ASSERT_LE(spring.stored_after_change, stored * (1.0 + 1e-12));
+      const double work = -dt * dot(load, motion);
+      ASSERT_LE(spring.stored - stored, work + 1e-12 * (std::fabs(work) + stored));
+      stored = spring.stored;
+    }
+  }
+}
+
+TEST(HertzRollingSpring, CannotCreateEnergy) {
+  expect_no_energy_from(true, 11, {20.0, 20.0, 1.0}, [](const HertzContact &, double) { return 3e4; });
+}
+
+TEST(HertzTangentialSpring, CannotCreateEnergy) {
+  expect_no_energy_from(false, 7, {1.0, 1.0, 0.0}, [](const HertzContact &contact, double overlap) {
+    return 0.3 * contact.law(m, radius).spring(overlap);
+  });
+}
+
+TEST(HertzLaw, FirstWeightIsThatOfTheZetaFunction) {
+  // zeta(s, 2) = zeta(s) - 1; the weights make up for a sum over t^(1/4), here of 10^5 steps.
+  EXPECT_NEAR(HertzLaw::first_weight(1.0), -2.0 * (boost::math::zeta(-0.25) - 1.0) - 1.0, 1e-9);
+  for (const double share : {0.01, 0.2, 0.5, 0.9}) {
+    const int steps = 100000;
+    double sum = 0.5 * (1.0 + HertzLaw::first_weight(share)) * std::pow(share, 0.25);
+    for (int n = 1; n < steps; ++n)
+      sum += std::pow(n + share, 0.25);
+    const double end = steps + share;
+    const double integral =
+        0.8 * std::pow(end, 1.25) - 0.5 * std::pow(end, 0.25) + 0.25 / 12.0 * std::pow(end, -0.75);
+    EXPECT_NEAR(sum, integral, 1e-7) << share;
+  }
+}
+
+} // namespace hertz_contact
+
+/// The law that yields: its definitions, loop and heat. Whole impacts, also one after another, are in
+/// law_impact_test.
+namespace yield_contact {
+
+constexpr double k1 = 1e7, m = 2.0;
+
+YieldContact contact_of(Transition transition, double D, double ratio) {
+  return {k1, ratio, D, Damping::ratio, transition, 0.0};
+}
+
+TEST(YieldLaw, IsItsFormula) {
+  const double k2 = 3e7, c = 1e3, largest = 1e-3, plastic = largest * 2.0 / 3.0;
+  const YieldLaw a(k1, k2, c, Transition::A, largest);
+  for (const double rate : {-1.0, 0.0, 0.3})
+    for (const double d : {1e-5, 0.5 * plastic, 0.99 * plastic, 8e-4, 1e-3, 1.2e-3}) {
+      const double spring = d >= largest ? k1 * d : d > plastic ? k2 * (d - plastic) : 0.0;
+      EXPECT_NEAR(a.force(d, rate), spring + c * rate, 1e-12 * k1 * d) << d; // also below the plastic overlap
+      EXPECT_NEAR(a.energy(d), 0.5 * spring * spring / k2, 1e-12 * k1 * d * d);
+      EXPECT_EQ(a.stiffest(d), k2);
+      EXPECT_EQ(a.slope(d), d >= largest ? k1 : d > plastic ? k2 : 0.0);
+    }
+}
+
+TEST(YieldLaw, IsTheLinearLawWhereUnloadingIsNotStiffer) {
+  const YieldContact yields{k1, 1.0, 0.3, Damping::ratio, Transition::B, 0.0};
+  const LinearContact linear{k1, 0.3, Damping::ratio, Transition::B};
+  for (const double largest : {0.0, 1e-3})
+    for (const double d : {1e-5, 5e-4, 1e-3, 2e-3})
+      for (const double rate : {-0.4, 0.7}) {
+        const YieldLaw law = yields.law(m, 0.0, largest);
+        EXPECT_NEAR(law.force(d, rate), linear.law(m).force(d, rate), 1e-12 * k1 * d);
+        EXPECT_NEAR(law.power(d, rate).dissipated, linear.law(m).power(d, rate).dissipated, 1e-10 * k1 * d);
+      }
+}
+
+// At the overlap at the end of a step, remember() changes no bit of the force.
+TEST(YieldLaw, HasTheSameBitsWithWhatItRemembersAtTheEndOfItsStep) {
+  for (const double largest : {0.0, 3e-4, 1e-3, 2e-3})
+    for (const double d : {1e-5, 7.1e-4, 1e-3, 1.3e-3}) {
+      const YieldLaw before(1e7, 3e7, 1e3, Transition::A, largest);
+      YieldLaw after = before;
+      for (int n = 0; n < 2; ++n) { // a set-up computes a step again
+        after.remember(d);
+        EXPECT_EQ(after.memory(), std::max(largest, d));
+        EXPECT_EQ(after.force(d, 0.3), before.force(d, 0.3));
+        EXPECT_EQ(after.energy(d), before.energy(d));
+        EXPECT_EQ(after.power(d, 0.3).stored, before.power(d, 0.3).stored);
+        EXPECT_EQ(after.yielded(d), before.yielded(d));
+      }
+    }
+}
+
+// Along any path the work is the stored energy and the heat; without a dashpot all heat is that of yielding.
+TEST(YieldLaw, StoresThePartOfItsWorkThatItGivesBack) {
+  YieldLaw law(1e7, 3e7, 0.0, Transition::B, 0.0);
+  double work = 0.0, heat = 0.0, before = 0.0;
+  constexpr int steps = 400000;
+  constexpr double dt = 1.0 / steps;
+  for (int n = 1; n <= steps; ++n) {
+    const double t = n * dt, d = 1e-3 * (std::sin(11.0 * t) + 1.2 * t), rate = (d - before) / dt;
+    const double middle = 0.5 * (d + before);
+    if (middle > 0.0) {
+      const ContactPower power = law.power(middle, rate);
+      EXPECT_GE(power.dissipated, 0.0);
+      work += dt * law.force(middle, rate) * rate;
+      heat += dt * power.dissipated;
+    }
+    law.remember(d);
+    before = d;
+  }
+  EXPECT_GT(heat, 1.0);
+  EXPECT_NEAR(work, law.energy(before) + heat, 1e-5 * work); // of first order in dt in steps across a kink
+  EXPECT_NEAR(heat, law.yielded(before), 1e-5 * work);
+}
+
+/// Moves the overlap and returns the work on the spring, J, by the midpoint rule.
+double work_of(YieldLaw &law, double from, double to) {
+  constexpr int steps = 30000;
+  const double change = (to - from) / steps;
+  double work = 0.0;
+  for (int n = 0; n < steps; ++n) {
+    work += law.spring(from + (n + 0.5) * change) * change;
+    law.remember(from + (n + 1) * change);
+  }
+  return work;
+}
+
+// A cycle from 0 to the overlap d_max and back turns (1 - k1/k2) k1 d_max^2 / 2 into heat. The same cycle
+// again turns none, and a cycle to a larger overlap the difference. The plastic overlap is (1 - k1/k2) d_max.
+TEST(YieldLaw, LoopHasTheHeatAndThePlasticOverlapOfTheClosedForms) {
+  for (const double ratio : {1.5, 4.0, 20.0}) {
+    YieldLaw law = contact_of(Transition::B, 0.0, ratio).law(m, 0.0, 0.0);
+    const double q = 1.0 / ratio, d_max = 1e-3, loop = 0.5 * (1.0 - q) * k1 * d_max * d_max,
+                 size = 0.5 * k1 * d_max * d_max;
+    const double there = work_of(law, 0.0, d_max);
+    EXPECT_NEAR(there, size, 1e-7 * size);
+    EXPECT_NEAR(law.energy(d_max), q * size, 1e-12 * size);
+    EXPECT_NEAR(-work_of(law, d_max, 0.0), law.energy(d_max), 1e-7 * size) << "what unloading gives back";
+    EXPECT_NEAR(law.yielded(0.5 * d_max), loop, 1e-12 * size);
+    EXPECT_NEAR(work_of(law, 0.0, d_max) + work_of(law, d_max, 0.0), 0.0, 1e-7 * size);
+    EXPECT_NEAR(work_of(law, 0.0, 2.0 * d_max) + work_of(law, 2.0 * d_max, 0.0), 3.0 * loop, 1e-6 * size);
+    const double plastic = (1.0 - q) * 2.0 * d_max;
+    EXPECT_EQ(law.spring(0.999999 * plastic), 0.0);
+    EXPECT_GT(law.spring(1.000001 * plastic), 0.0);
+  }
+}
+
+// A ball that stands on a contact that has yielded, under a force that changes, neither sinks nor gains.
+TEST(YieldRest, NeitherCreepsNorGainsEnergyInAMillionSteps) {
+  const YieldLaw law = contact_of(Transition::B, 0.0, 3.0).law(m, 0.0, 0.0);
+  const double w = std::sqrt(3.0 * k1 / m), dt = 0.1 / w, weight = 20.0, deep = weight / k1;
+  verlet::Ball<YieldLaw> ball(m, 0.0, 0.0, dt, {{0.0, 1.0, law}}, -weight);
+  for (int n = 0; n < 1000; ++n) // it falls to twice that and then vibrates along k2
+    ball.step();
+  double lowest = 0.0, highest = -1.0, early_lowest = 0.0, early_highest = -1.0;
+  for (int n = 0; n < 1000000; ++n) {
+    ball.step();
+    lowest = std::fmin(lowest, ball.x);
+    highest = std::fmax(highest, ball.x);
+    if (n > 1000) continue;
+    early_lowest = std::fmin(early_lowest, ball.x);
+    early_highest = std::fmax(early_highest, ball.x);
+  }
+  EXPECT_NEAR(lowest, early_lowest, 5e-3 * deep);
+  EXPECT_NEAR(highest, early_highest, 5e-3 * deep);
+}
+
+} // namespace yield_contact
+
 } // namespace
+} // namespace drumlin::test

@@ -1,25 +1,11 @@
 /// Every contact law in impacts on a fixed partner and under a force that changes, by both schemes: motion,
 /// heat and located makes and breaks against CVODE, restitution against the closed form. A law is a row of
 /// `kinds`. Mass, stiffness (of first loading) and, but where stated, speed are 1.
-
+#include "tests/core/velocity_verlet.h"
+#include "tests/support/ode.h"
 #include "physics/laws/laws.h"
 #include "physics/laws/restitution.h"
 #include "physics/scheme/event_location.h"
-#include "tests/core/velocity_verlet.h"
-#include "tests/support/ode.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <set>
-#include <string>
-#include <tuple>
-#include <utility>
-#include <variant>
-#include <vector>
 
 namespace {
 

@@ -1,11 +1,7 @@
 #pragma once
 /// Parameters for every law of the list, from the table of each: what tests of all laws take.
-
+#include "tests/support/prelude.h"
 #include "physics/laws/laws.h"
-
-#include <cmath>
-#include <cstddef>
-#include <string>
 
 namespace drumlin::test {
 

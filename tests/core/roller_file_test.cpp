@@ -1,12 +1,7 @@
 /// Roller files: what follows from a data sheet, against values computed by hand, and what is refused.
-
+#include "tests/support/prelude.h"
 #include "physics/files/roller.h"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <string>
 #include <unistd.h>
 
 namespace {

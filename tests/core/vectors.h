@@ -1,10 +1,7 @@
 #pragma once
 /// What tests of forces in space and of random parameters share.
-
+#include "tests/support/prelude.h"
 #include "physics/vec3.h"
-
-#include <cmath>
-#include <random>
 
 namespace drumlin::test {
 

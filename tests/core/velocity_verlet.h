@@ -1,12 +1,8 @@
 #pragma once
 /// The engines' part of a step, for tests of laws and of advance(): velocity Verlet as in fix nve/sphere, of
 /// a ball on a line among fixed partners.
-
+#include "tests/support/prelude.h"
 #include "physics/scheme/advance.h"
-
-#include <algorithm>
-#include <utility>
-#include <vector>
 
 namespace verlet {
 

@@ -1,20 +1,7 @@
 // fix boundary/absorb in both engines: waves on a chain and on a hexagonal lattice, of which the boundary
 // reflects the share of closed forms; settlement; energy balance; balls on its springs.
-#include "tests/support/checks.h"
-#include "tests/support/engine_and_scheme.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/oscillator.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <filesystem>
-#include <fstream>
-#include <limits>
-#include <map>
-#include <string>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -170,11 +157,8 @@ ChainsRun run_chains(const std::string &engine, const std::string &stepping) {
   write_balls(folder, {d * 2 * count, 0.1, d * (length + 2)}, balls);
   write_fixes(folder, lines + rigid);
   well(run_scene(engine, "absorb",
-                 {{"stepping", stepping},
-                  {"dt", number(dt)},
-                  {"steps", std::to_string(cycles * per_period)},
-                  {"every", std::to_string(per_period / samples)},
-                  {"rows", std::to_string(cycles * per_period)}},
+                 given("stepping {}, dt {}, steps {}, every {}, rows {}", stepping, dt, cycles * per_period,
+                       per_period / samples, cycles * per_period),
                  folder.path()));
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   for (std::size_t c = 0; c < chains().size(); ++c) {
@@ -207,7 +191,7 @@ void expect_closed_form(const ChainsRun &run, bool second) {
 TEST(AbsorbOnChains, ReflectsTheShareOfTheEnergyOfTheClosedFormAndTheSameInBothEngines) {
   const ChainsRun run = run_chains("liggghts", "second");
   expect_closed_form(run, true);
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  SKIP_WITHOUT_LAMMPS(true);
   const ChainsRun there = run_chains("lammps", "second");
   for (std::size_t c = 0; c < chains().size(); ++c)
     EXPECT_NEAR(run.measured[c], there.measured[c], 1e-9) << c;
@@ -245,10 +229,8 @@ TEST_P(Absorb, ReflectsPlaneWavesOfCompressionAndShearOnAHexagonalLattice) {
                           "fix shake_z top" + shake + " direction 0 0 1\nfix shake_x top" + shake +
                           " direction 1 0 0\n");
   well(run("absorb", folder,
-           {{"dt", number(dt)},
-            {"steps", std::to_string(cycles * per_period)},
-            {"every", std::to_string(per_period / samples)},
-            {"rows", std::to_string(cycles * per_period)}}));
+           given("dt {}, steps {}, every {}, rows {}", dt, cycles * per_period, per_period / samples,
+                 cycles * per_period)));
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   for (const bool shear : {false, true}) {
     const double speed = shear ? cs : cp;
@@ -290,12 +272,7 @@ TEST_P(Absorb, SettlesUnderALoadAsTheLayerDoes) {
               "fix g all gravity " + number(g) + " vector 0 0 -1\n" +
                   boundary("floor", "1", true, 1, density, cp, 0, H, false),
               "f_floor[1]+f_floor[2]", "f_floor[3]", "f_floor[7]");
-  well(run("absorb", folder,
-           {{"dt", "1e-5"},
-            {"D", "0.1"},
-            {"steps", "10000"},
-            {"every", std::to_string(every)},
-            {"rows", std::to_string(every)}}));
+  well(run("absorb", folder, given("dt 1e-5, D 0.1, steps 10000, every {}, rows {}", every, every)));
   const std::vector<EnergyRow> rows = energy_rows(folder);
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   ASSERT_EQ(rows.size() + 1, frames.size());
@@ -333,8 +310,8 @@ TEST_P(Absorb, KeepsTheStaticReactionAndBalancesTheEnergyOfAPulse) {
                   boundary("top", std::to_string(length), false, 1, density, cp, 0, no_layer, true),
               "f_floor[1]+f_floor[2]+f_top[1]+f_top[2]", "f_floor[3]+f_top[3]", "f_top[6]");
   well(run("absorb", folder,
-           second() ? Variables{{"dt", number(0.05 * tau)}, {"steps", "10000"}, {"rows", "20"}}
-                    : Variables{{"dt", number(0.025 * tau)}, {"steps", "20000"}, {"rows", "40"}}));
+           second() ? given("dt {}, steps 10000, rows 20", 0.05 * tau)
+                    : given("dt {}, steps 20000, rows 40", 0.025 * tau)));
   const std::vector<EnergyRow> rows = energy_rows(folder);
   ASSERT_EQ(rows.size(), 500u);
   double error = 0, most_work = 0;
@@ -356,11 +333,8 @@ TEST_P(Absorb, BallsThatMoveFollowTheOscillator) {
   constexpr double density = 0.2, cp = 10, cs = 5, H = 8e-4, vx = 2.5, vz = 4.5; // of absorb.moving
   const Scratch folder;
   well(run("absorb", folder,
-           {{"data", test_deck("absorb.moving.data").string()},
-            {"fixes", test_deck("absorb.moving").string()},
-            {"dt", "2e-5"},
-            {"steps", "3000"},
-            {"every", "3000"}}));
+           given("data {}, fixes {}, dt 2e-5, steps 3000, every 3000",
+                 test_deck("absorb.moving.data").string(), test_deck("absorb.moving").string())));
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   const double w = std::sqrt(density * cp * cp / H / m), time = 3000 * 2e-5;
   for (long n = 1; n <= 7; ++n) {

@@ -1,27 +1,7 @@
 // The decks of the bed on a small bed: balls are placed, settle, get a roller, and are excited.
-#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
-
 #include "bed/dump_readers.h"
-#include "runs/chain_files.h"
 #include "runs/parameter_file.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <limits>
-#include <map>
-#include <numeric>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -39,9 +19,7 @@ protected:
   const WaitForRanks at_once{0}; // the runs on two ranks that fail are refused, or have lost a ball
   static constexpr double roller_mass = 150.0;
 
-  static Variables roller() {
-    return {{"m2", "100"}, {"m3", "50"}, {"r2", "0.1"}, {"r3", "0.05"}, {"k23", "5e4"}, {"c23", "500"}};
-  }
+  static Variables roller() { return given("m2 100, m3 50, r2 0.1, r3 0.05, k23 5e4, c23 500"); }
   static constexpr std::array<const char *, 2> drums = {"ball", "clump"};
   static constexpr std::array<const char *, 2> steppings = {"stock", "second"}; // the decks' default first
 
@@ -52,27 +30,25 @@ protected:
     const auto [bed, is_new] = beds.try_emplace(stepping + ", rolling " + rolling);
     if (is_new)
       make(bed->second, "1", {drums.begin(), rolling == "0" ? drums.end() : drums.begin() + 1},
-           {{"stepping", stepping}, {"rolling", rolling}, {"ratio", rolling == "0" ? "1e-4" : "1e-2"}});
+           given("stepping {}, rolling {}, ratio {}", stepping, rolling, rolling == "0" ? "1e-4" : "1e-2"));
     return bed->second.path();
   }
   /// DRUM.restart for each kind of drum, in a folder.
   static void make(const Scratch &folder, const std::string &seed, const std::vector<std::string> &kinds,
                    const Variables &more = {}) {
-    well(run_program(
-        {DRUMLIN_TOOLS, "bed", "--balls", "150", "--width", "0.6", "--seed", seed, "--out", "balls.data"}, {},
-        folder.path()));
-    const Variables settling =
-        with(more, {{"case", "loose"}, {"balls", "balls.data"}, {"bed", "soil.restart"}});
+    well(run_program(tool_words("bed --balls 150 --width 0.6 --seed {} --out balls.data", seed), {},
+                     folder.path()));
+    const Variables settling = with(more, given("case loose, balls balls.data, bed soil.restart"));
     well(run_deck(bed_folder() / "in.settle", settling, folder.path()));
     for (const std::string &drum : kinds) {
       const Variables variables =
-          with(with(roller(), more), {{"bed", "soil.restart"}, {"drum", drum}, {"start", drum + ".restart"}});
+          with(with(roller(), more), given("bed soil.restart, drum {}, start {}", drum, drum + ".restart"));
       well(run_deck(bed_folder() / "in.place", variables, folder.path()));
     }
   }
   /// A cycle of 50 Hz in 1000 steps, which are as long as those of the decks' 2500 in a cycle of 20 Hz.
   static Variables short_cycle() {
-    return {{"omega", "314.1592653589793"}, {"steps_per_cycle", "1000"}, {"samples_per_cycle", "100"}};
+    return given("omega 314.1592653589793, steps_per_cycle 1000, samples_per_cycle 100");
   }
   static Outcome run(const fs::path &deck, const Scratch &folder, const Variables &more, int ranks = 1) {
     Variables variables = more; // the engine takes the first of a name
@@ -89,8 +65,7 @@ protected:
     variables.emplace_back("here", bed_folder().string());
     if (name == "in.settle") variables.emplace_back("case", "loose");
     if (name != "in.settle" && name != "in.place" && name != "in.tile")
-      variables.insert(variables.end(),
-                       {{"start", (bed / (drum + ".restart")).string()}, {"Fw", "2940"}, {"cycles", "2"}});
+      variables = with(variables, given("start {}, Fw 2940, cycles 2", (bed / (drum + ".restart")).string()));
     return run_deck(deck, variables, folder.path(), ranks);
   }
   static Outcome shake(const Scratch &folder, const Variables &more, int ranks = 1) {
@@ -139,13 +114,9 @@ protected:
     if (!can_mount_small_disk()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
     const Scratch folder;
     std::string words = engine_and_deck + more;
-    for (const auto &[name, value] : Variables{{"omega", "3141.6"},
-                                               {"steps_per_cycle", "100"},
-                                               {"samples_per_cycle", "10"},
-                                               {"cycles", "2"},
-                                               {"Fw", "2940"},
-                                               {"out", "o"},
-                                               {"start", (scratch / "ball.restart").string()}})
+    for (const auto &[name, value] :
+         given("omega 3141.6, steps_per_cycle 100, samples_per_cycle 10, cycles 2, Fw 2940, out o, start {}",
+               (scratch / "ball.restart").string()))
       words += fmt::format(" -var {} '{}'", name, value);
     for (const auto &[name, value] : roller())
       words += fmt::format(" -var {} {}", name, value);
@@ -198,11 +169,9 @@ protected:
   /// process.
   static void expect_goes_on(const char *deck, const char *stepping, const char *boundary) {
     const auto shaken = [=](const Scratch &folder, Variables more, int ranks) {
-      more.insert(
-          more.end(),
-          {{"cycles", "3"}, {"dumps_per_cycle", "2"}, {"stepping", stepping}, {"boundary", boundary}});
+      more = with(more, given("cycles 3, dumps_per_cycle 2, stepping {}, boundary {}", stepping, boundary));
       more = with(more, short_cycle());
-      if (std::string(deck) == "in.bed.lammps") more = with(more, {{"rest", "0"}, {"balance", "1e30"}});
+      if (std::string(deck) == "in.bed.lammps") more = with(more, given("rest 0, balance 1e30"));
       return run(bed_folder() / deck, folder, more, ranks);
     };
     for (const int ranks : {1, 2}) {
@@ -217,7 +186,7 @@ protected:
       // A changed value of any of the three is refused, on any number of ranks. To save time omega is tried
       // on one rank, the others on two.
       const Variables of_another_scene =
-          ranks == 1 ? Variables{{"omega", "100"}} : Variables{{"Fw", "10"}, {"steps_per_cycle", "5000"}};
+          ranks == 1 ? Variables{{"omega", "100"}} : given("Fw 10, steps_per_cycle 5000");
       for (const auto &[name, value] : of_another_scene) {
         EXPECT_TRUE(
             fails_with(shaken(left, {{"start", start}, {name, value}}, ranks),
@@ -368,13 +337,9 @@ TEST_F(Bed, CarriesTheRollerAtRestAndIsShakenUnderBothTransitions) {
 TEST_F(Bed, RecordsTheForcesThatMoveTheDrum) {
   for (const auto &[transition, stepping] : {std::pair{"A", "second"}, {"B", "second"}, {"B", "stock"}}) {
     const Scratch folder;
-    well(shake(folder, {{"transition", transition},
-                        {"stepping", stepping},
-                        {"friction", "0.2"},
-                        {"allow_change", "friction"},
-                        {"balance", "1e30"},
-                        {"cycles", "1"},
-                        {"samples_per_cycle", "2500"}}));
+    well(shake(folder, given("transition {}, stepping {}, friction 0.2, allow_change friction, balance 1e30, "
+                             "cycles 1, samples_per_cycle 2500",
+                             transition, stepping)));
     const post::Table table = post::read_table(folder / "bed.csv");
     const std::vector<double> time = table.numbers("time"), v = table.numbers("v_drum"),
                               a = table.numbers("a_drum");
@@ -397,8 +362,8 @@ TEST_F(Bed, GoesTheSameWayOnSeveralRanks) {
                                                               {"clump", "second", "absorb"}}};
   for (const auto &[drum, stepping, boundary] : scenes) {
     const Scratch one;
-    const Variables variables = with(
-        short_cycle(), {{"cycles", "1"}, {"drum", drum}, {"stepping", stepping}, {"boundary", boundary}});
+    const Variables variables =
+        with(short_cycle(), given("cycles 1, drum {}, stepping {}, boundary {}", drum, stepping, boundary));
     well(shake(one, variables));
     const std::vector<double> alone = post::read_table(one / "bed.csv").numbers("x_drum");
     for (int ranks = 2; ranks <= most_ranks(); ranks *= 2) {
@@ -429,7 +394,7 @@ TEST_F(Bed, DISABLED_MeansOverSeedsAgreeOnRanksOneAndTwo) {
     make(made, std::to_string(seed), {"ball"});
     for (const int ranks : {1, 2}) {
       const Scratch folder;
-      well(shake(folder, {{"start", (made / "ball.restart").string()}, {"cycles", "6"}}, ranks));
+      well(shake(folder, given("start {}, cycles 6", (made / "ball.restart").string()), ranks));
       const post::Table cycles = post::read_table(folder / "cycles.csv");
       ASSERT_EQ(cycles.rows(), 7u);
       for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -460,7 +425,7 @@ TEST_F(Bed, RepeatsItselfOnRanksOneAndTwo) {
   for (const char *stepping : steppings)
     for (const int ranks : {1, 2}) {
       const Scratch once, again;
-      const Variables variables = with(short_cycle(), {{"cycles", "1"}, {"stepping", stepping}});
+      const Variables variables = with(short_cycle(), given("cycles 1, stepping {}", stepping));
       well(shake(once, variables, ranks));
       well(shake(again, variables, ranks));
       for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
@@ -481,8 +446,8 @@ TEST_F(Bed, ForcesOfTheWallsMinusWeightAreTheRateOfChangeOfMomentum) {
   for (const auto &[stepping, boundary] :
        {std::pair{"stock", "rigid"}, {"second", "rigid"}, {"stock", "absorb"}}) {
     const Scratch folder;
-    const Variables variables = {
-        {"cycles", "1"}, {"samples_per_cycle", "2500"}, {"stepping", stepping}, {"boundary", boundary}};
+    const Variables variables =
+        given("cycles 1, samples_per_cycle 2500, stepping {}, boundary {}", stepping, boundary);
     well(run(test_deck("bed_steps.in"), folder, variables));
     const post::Table table = post::read_table(folder / "bed.csv");
     const std::vector<Frame> frames = read_dump(folder / "state.dump");
@@ -534,8 +499,7 @@ TEST_F(Bed, ClumpStaysRigidOnRanksOneAndTwo) {
   for (const auto &[stepping, ranks] : {std::pair{"stock", 1}, {"second", 1}, {"second", 2}}) {
     const Scratch folder;
     well(run(test_deck("bed_steps.in"), folder,
-             {{"cycles", "1"}, {"drum", "clump"}, {"Fw", "6000"}, {"steps", "500"}, {"stepping", stepping}},
-             ranks));
+             given("cycles 1, drum clump, Fw 6000, steps 500, stepping {}", stepping), ranks));
     const std::vector<Frame> frames = read_dump(folder / "state.dump");
     const std::map<long, Ball> &first = frames.front().balls, &last = frames.back().balls;
     const long frame = last.rbegin()->first;
@@ -569,11 +533,8 @@ TEST_F(Bed, EnergyErrorIsBelowAPercentOverTenCyclesAndFallsWithTheStep) {
   for (const auto &[transition, drum, stepping] : scenes) {
     const auto shaken = [transition = transition, drum = drum,
                          stepping = stepping](const Scratch &folder, const char *cycles, const char *steps) {
-      well(shake(folder, {{"cycles", cycles},
-                          {"transition", transition},
-                          {"steps_per_cycle", steps},
-                          {"drum", drum},
-                          {"stepping", stepping}}));
+      well(shake(folder, given("cycles {}, transition {}, steps_per_cycle {}, drum {}, stepping {}", cycles,
+                               transition, steps, drum, stepping)));
     };
     const Scratch coarse, fine;
     shaken(coarse, "10", "2500");
@@ -592,11 +553,8 @@ TEST_F(Bed, EnergyErrorIsBelowAPercentWithRollingFriction) {
   std::vector<double> heat;
   for (const char *rolling : {"0.1", "1e-6"}) {
     const Scratch folder;
-    well(shake(folder, {{"cycles", "5"},
-                        {"rolling", rolling},
-                        {"allow_change", "rolling"},
-                        {"balance", "1e30"},
-                        {"start", (bed / "ball.restart").string()}}));
+    well(shake(folder, given("cycles 5, rolling {}, allow_change rolling, balance 1e30, start {}", rolling,
+                             (bed / "ball.restart").string())));
     EXPECT_LT(imbalance(folder / "bed.csv"), 0.01) << rolling;
     heat.push_back(post::read_table(folder / "bed.csv").numbers("dissipated").back());
   }
@@ -625,8 +583,7 @@ void expect_ground_below_floor(const std::string &output, const fs::path &folder
 TEST_F(Bed, EnergyErrorIsBelowAThousandthOnGroundThatAbsorbs) {
   for (const char *stepping : steppings) {
     const Scratch folder;
-    const Outcome outcome =
-        well(shake(folder, {{"boundary", "absorb"}, {"cycles", "4"}, {"stepping", stepping}}));
+    const Outcome outcome = well(shake(folder, given("boundary absorb, cycles 4, stepping {}", stepping)));
     const double error = imbalance(folder / "bed.csv");
     RecordProperty(stepping, std::to_string(error));
     EXPECT_LT(error, 1e-3) << stepping;
@@ -649,12 +606,10 @@ TEST_F(Bed, EnergyErrorIsBelowAThousandthOnGroundThatAbsorbs) {
 TEST_F(Bed, EnergyErrorIsBelowAThousandthWithContactsThatYieldAndContinue) {
   for (const char *stepping : steppings) {
     const Scratch bed, stayed, left;
-    make(bed, "1", {"ball"}, {{"stepping", stepping}, {"yield", "3"}, {"ratio", "1e-2"}});
+    make(bed, "1", {"ball"}, given("stepping {}, yield 3, ratio 1e-2", stepping));
     const auto shaken = [&](const Scratch &folder, const Variables &more) {
-      return well(shake(folder, with(more, {{"stepping", stepping},
-                                            {"cycles", "4"},
-                                            {"balance", "1e30"},
-                                            {"start", (bed / "ball.restart").string()}})));
+      return well(shake(folder, with(more, given("stepping {}, cycles 4, balance 1e30, start {}", stepping,
+                                                 (bed / "ball.restart").string()))));
     };
     shaken(stayed, {});
     const double error = imbalance(stayed / "bed.csv");
@@ -681,13 +636,13 @@ TEST_F(Bed, EnergyErrorIsBelowAThousandthWithContactsThatYieldAndContinue) {
 // and the floor carries 1.15 weights.
 TEST_F(Bed, OfGravelCarriesTheVibratingDrum) {
   const Scratch gravel;
-  make(gravel, "1", {"ball"}, {{"case", "gravel"}, {"ratio", "1"}});
+  make(gravel, "1", {"ball"}, given("case gravel, ratio 1"));
   double sides = 0.0; // N per m, upward, at rest
   double depth = 0.0; // m
   const auto settlement = [&](const Variables &soil) {
     const Scratch folder;
     const Variables variables =
-        with(soil, {{"cycles", "4"}, {"balance", "1e9"}, {"start", (gravel / "ball.restart").string()}});
+        with(soil, given("cycles 4, balance 1e9, start {}", (gravel / "ball.restart").string()));
     well(shake(folder, variables));
     sides = post::read_table(folder / "bed.csv").numbers("F_sides").front();
     depth = std::stod(post::read_parameters(folder / "parameters.csv").at("drum_depth"));
@@ -697,14 +652,14 @@ TEST_F(Bed, OfGravelCarriesTheVibratingDrum) {
   EXPECT_LT(carried, 0.004);
   EXPECT_GT(sides, 0.0);
   EXPECT_NEAR(depth, depth_of_drum(gravel / "soil.restart.data", gravel / "ball.restart.data"), 5e-4);
-  EXPECT_GT(settlement({{"rolling", "0"}, {"allow_change", "rolling"}}), carried + 0.001);
+  EXPECT_GT(settlement(given("rolling 0, allow_change rolling")), carried + 0.001);
 }
 
 // A base course, the default case, carries it within 5 %; its contacts yield meanwhile.
 TEST_F(Bed, OfABaseCourseCarriesTheVibratingDrum_ByNight) {
   const Scratch base, folder;
-  make(base, "1", {"ball"}, {{"case", "base"}, {"ratio", "1"}});
-  well(shake(folder, {{"cycles", "4"}, {"balance", "1e9"}, {"start", (base / "ball.restart").string()}}));
+  make(base, "1", {"ball"}, given("case base, ratio 1"));
+  well(shake(folder, given("cycles 4, balance 1e9, start {}", (base / "ball.restart").string())));
   EXPECT_EQ(post::read_parameters(folder / "parameters.csv").at("tensile_strength"), "2e4");
   const post::Table cycles = post::read_table(folder / "cycles.csv");
   EXPECT_LT(cycles.numbers("settlement").back(), 0.01);
@@ -717,8 +672,7 @@ TEST_F(Bed, LeftAloneStaysAsItIs) {
        {std::pair{"stock", "rigid"}, {"second", "rigid"}, {"stock", "absorb"}}) {
     const Scratch folder;
     const Outcome outcome =
-        shake(folder,
-              {{"Fw", "0"}, {"cycles", "4"}, {"stepping", stepping}, {"boundary", boundary}}); // 10,000 steps
+        shake(folder, given("Fw 0, cycles 4, stepping {}, boundary {}", stepping, boundary)); // 10,000 steps
     ASSERT_TRUE(outcome.ok()) << outcome.output;
     const post::Table table = post::read_table(folder / "bed.csv");
     const std::vector<double> x = table.numbers("x_drum"), force = table.numbers("F_contact"),
@@ -775,19 +729,19 @@ TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
          ranks == 1 ? std::vector{header, half, nearly, longer, damaged, other} : std::vector{half})
       refused("in.bed", {{"start", file}},
               std::string("variable start is '").append(file).append("'").append(cut), ranks);
-    refused("in.place", {{"bed", (scratch / "ball.restart").string()}, {"start", "x.restart"}},
+    refused("in.place", given("bed {}, start x.restart", (scratch / "ball.restart").string()),
             ", made with bed roller; allowed: made with bed soil", ranks);
-    refused("in.settle", {{"balls", some}, {"bed", "x.restart"}},
+    refused("in.settle", given("balls {}, bed x.restart", some),
             "variable balls is '" + some + "'; allowed: a complete data file of balls in their box", ranks);
-    refused("in.settle", {{"balls", none}, {"bed", "x.restart"}},
+    refused("in.settle", given("balls {}, bed x.restart", none),
             "variable balls is '" + none + "'; allowed: a data file with a box, atoms and their types",
             ranks);
   }
   refused("in.bed", {{"start", (scratch / "soil.restart").string()}},
           ", made with bed soil; allowed: made with bed roller", 1);
-  refused("in.bed", {{"stepping", "second"}, {"start", (scratch / "ball.restart").string()}},
+  refused("in.bed", given("stepping second, start {}", (scratch / "ball.restart").string()),
           "variable stepping is 'second'; allowed: stock, with which ", 1);
-  refused("in.settle", {{"case", "sand"}, {"balls", (scratch / "balls.data").string()}, {"bed", "x.restart"}},
+  refused("in.settle", given("case sand, balls {}, bed x.restart", (scratch / "balls.data").string()),
           "variable case is '", 1);
 }
 
@@ -812,22 +766,21 @@ TEST_F(Bed, RefusesValuesThatAreNotTheBedsOnRanksOneAndTwo) {
                 std::string("drumlin/variable: variable ") + name + " is '" + value + "'; allowed: " + was +
                     ", with which ",
                 ranks);
-  refused("in.place",
-          {{"friction", "0.2"}, {"bed", (scratch / "soil.restart").string()}, {"start", "x.restart"}},
+  refused("in.place", given("friction 0.2, bed {}, start x.restart", (scratch / "soil.restart").string()),
           "drumlin/variable: variable friction is '0.2'; allowed: 0.5, with which ");
   refused("in.bed", {{"boundary", "soft"}}, "drumlin/variable: variable boundary is 'soft'; allowed: ");
   for (const char *name : {"ground_depth", "ground_density", "ground_cp"})
     refused("in.bed", {{"boundary", "absorb"}, {name, "0"}},
             std::string("drumlin/variable: variable ") + name + " is '0'; allowed: ");
-  refused("in.bed", {{"boundary", "absorb"}, {"ground_cs", "1e4"}},
+  refused("in.bed", given("boundary absorb, ground_cs 1e4"),
           "fix boundary/absorb: speed of shear waves is '10000 m/s'; allowed: at most");
   refused("in.bed", {{"allow_change", "m2"}},
           "drumlin/variables: variable allow_change is 'm2'; allowed: none, or ");
   // Variables that may be changed take effect, so that the bed is no longer in equilibrium.
   for (const int ranks : {1, 2})
-    refused("in.bed", {{"friction", "0.2"}, {"allow_change", "friction"}},
-            "drumlin/settle: unbalanced ratio is '", ranks);
-  well(shake(folder, {{"friction", "0.2"}, {"allow_change", "friction"}, {"balance", "1e9"}}));
+    refused("in.bed", given("friction 0.2, allow_change friction"), "drumlin/settle: unbalanced ratio is '",
+            ranks);
+  well(shake(folder, given("friction 0.2, allow_change friction, balance 1e9")));
   const std::string parameters = read_text(folder / "parameters.csv");
   EXPECT_TRUE(contains(parameters, {"\nfriction,0.2\n", "\nallow_change,friction\n"}));
 }
@@ -836,19 +789,13 @@ TEST_F(Bed, RefusesValuesThatAreNotTheBedsOnRanksOneAndTwo) {
 TEST_F(Bed, IsPouredWithContactsOfItsOwn) {
   const Scratch folder;
   well(run_deck(bed_folder() / "in.settle",
-                {{"balls", (scratch / "balls.data").string()},
-                 {"bed", (folder / "dense").string()},
-                 {"case", "loose"},
-                 {"ratio", "1e-2"},
-                 {"pour_friction", "0"}},
+                given("balls {}, bed {}, case loose, ratio 1e-2, pour_friction 0",
+                      (scratch / "balls.data").string(), (folder / "dense").string()),
                 folder.path()));
-  const Variables placing =
-      with(roller(),
-           {{"bed", (folder / "dense").string()}, {"start", (folder / "start").string()}, {"ratio", "1e-2"}});
+  const Variables placing = with(roller(), given("bed {}, start {}, ratio 1e-2", (folder / "dense").string(),
+                                                 (folder / "start").string()));
   well(run_deck(bed_folder() / "in.place", placing, folder.path()));
-  well(shake(
-      folder,
-      {{"start", (folder / "start").string()}, {"cycles", "1"}, {"friction", "0.5"}, {"balance", "1"}}));
+  well(shake(folder, given("start {}, cycles 1, friction 0.5, balance 1", (folder / "start").string())));
   const Scratch loose;
   well(shake(loose, {{"cycles", "1"}}));
   EXPECT_LT(post::read_table(folder / "bed.csv").numbers("void_ratio").front(),
@@ -880,7 +827,7 @@ TEST_F(Bed, RefusesDataFilesThatTheEngineWouldNot) {
         good + good}) {
     std::ofstream(folder / "bad.data") << text;
     EXPECT_TRUE(fails_with(run_deck(bed_folder() / "in.settle",
-                                    {{"balls", (folder / "bad.data").string()}, {"bed", "x.restart"}},
+                                    given("balls {}, bed x.restart", (folder / "bad.data").string()),
                                     folder.path(), 1, 20.0),
                            "ERROR: drumlin/check: variable balls is '"));
     EXPECT_FALSE(fs::exists(folder / "x.restart"));
@@ -900,9 +847,9 @@ TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
     EXPECT_FALSE(fs::exists(file)) << deck;
   };
   stopped("in.settle",
-          {{"case", "loose"}, {"fall", "1000"}, {"balls", (scratch / "balls.data").string()}, {"bed", file}});
+          given("case loose, fall 1000, balls {}, bed {}", (scratch / "balls.data").string(), file));
   const Variables placing =
-      with(roller(), {{"sink", "1000"}, {"bed", (scratch / "soil.restart").string()}, {"start", file}});
+      with(roller(), given("sink 1000, bed {}, start {}", (scratch / "soil.restart").string(), file));
   stopped("in.place", placing);
 }
 
@@ -911,14 +858,11 @@ TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
 TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
   for (const int ranks : {1, 2}) {
     const Scratch folder;
-    EXPECT_TRUE(fails_with(shake(folder, {{"guard", "off"}, {"Fw", "1e12"}}, ranks),
+    EXPECT_TRUE(fails_with(shake(folder, given("guard off, Fw 1e12"), ranks),
                            "ERROR: fix bond/spring: ball is '151', which was lost at step "));
     EXPECT_TRUE(fails_with(run(bed_folder() / "in.settle", folder,
-                               {{"guard", "off"},
-                                {"pour_k", "10"},
-                                {"stepping", "stock"},
-                                {"balls", (scratch / "balls.data").string()},
-                                {"bed", (folder / "x.restart").string()}},
+                               given("guard off, pour_k 10, stepping stock, balls {}, bed {}",
+                                     (scratch / "balls.data").string(), (folder / "x.restart").string()),
                                ranks),
                            "ERROR: Lost atoms"));
     EXPECT_FALSE(fs::exists(folder / "x.restart"));
@@ -929,10 +873,8 @@ TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
 TEST_F(Bed, EndsAtASignalWhileItSettles) {
   const Scratch folder;
   const Outcome settling = run_deck(bed_folder() / "in.settle",
-                                    {{"case", "loose"},
-                                     {"ratio", "1e-29"},
-                                     {"balls", (scratch / "balls.data").string()},
-                                     {"bed", (folder / "x.restart").string()}},
+                                    given("case loose, ratio 1e-29, balls {}, bed {}",
+                                          (scratch / "balls.data").string(), (folder / "x.restart").string()),
                                     folder.path(), 1, 60.0, after_processor_time(in_the_run));
   EXPECT_TRUE(settling.timed_out);
   EXPECT_TRUE(fails_with(settling, "ERROR: drumlin/settle: stopped by a signal after "));
@@ -991,19 +933,18 @@ TEST(BedAtRest, LeavesOutAFewRollingBallsIfAsked) {
   for (const std::string deck : {"in.settle", "in.settle.lammps"}) {
     if (deck == "in.settle.lammps" && !post::has_lammps()) continue;
     const auto settle = [&](const Variables &more, int ranks = 1) {
-      const Variables variables = with(
-          more,
-          {{"balls", "balls"}, {"bed", "soil"}, {"fall", "0"}, {"drag", "1000"}, {"settle_limit", "60000"}});
+      const Variables variables =
+          with(more, given("balls balls, bed soil, fall 0, drag 1000, settle_limit 60000"));
       return run_deck(bed_folder() / deck, variables, folder.path(), ranks);
     };
-    const Variables a_third = {{"loose", "0.34"}, {"loose_steps", "5000"}};
+    const Variables a_third = given("loose 0.34, loose_steps 5000");
     const auto expect_moving = [&](const Variables &more) {
       EXPECT_TRUE(fails_with(settle(more), "ERROR: drumlin/settle: unbalanced ratio is '"));
       EXPECT_FALSE(fs::exists(folder / "soil"));
     };
     write_balls(0.0);
-    expect_moving({});                                           // by default none may move
-    expect_moving({{"loose", "0.24"}, {"loose_steps", "5000"}}); // 1 of 4 balls is more
+    expect_moving({});                                    // by default none may move
+    expect_moving(given("loose 0.24, loose_steps 5000")); // 1 of 4 balls is more
     for (const int ranks : {1, 2}) {
       EXPECT_TRUE(printed(well(settle(a_third, ranks)),
                           ", 1 of 4 balls still not at rest, all others for 5000 steps"));
@@ -1011,7 +952,7 @@ TEST(BedAtRest, LeavesOutAFewRollingBallsIfAsked) {
       fs::remove(folder / "soil");
     }
     write_balls(7.0);
-    expect_moving({{"loose", "0.9"}, {"loose_steps", "5000"}});
+    expect_moving(given("loose 0.9, loose_steps 5000"));
   }
 }
 
@@ -1022,13 +963,13 @@ TEST_F(Bed, RefusesNamesThatCannotBeWrittenAtTheBeginning) {
        {std::string("nowhere/x.restart"), folder.path().string(), std::string("x.*")}) {
     const std::string allowed = "is '" + file + "'; allowed: a file in a folder that exists, without * and %";
     const Outcome settled = run(bed_folder() / "in.settle", folder,
-                                {{"balls", (scratch / "balls.data").string()}, {"bed", file}});
+                                given("balls {}, bed {}", (scratch / "balls.data").string(), file));
     EXPECT_TRUE(printed(settled, "ERROR: drumlin/variable: variable bed " + allowed));
     const Outcome placed = run(bed_folder() / "in.place", folder,
-                               {{"bed", (scratch / "soil.restart").string()}, {"start", file}});
+                               given("bed {}, start {}", (scratch / "soil.restart").string(), file));
     EXPECT_TRUE(printed(placed, "ERROR: drumlin/variable: variable start " + allowed));
-    const Outcome tiled =
-        run(bed_folder() / "in.tile", folder, {{"cell", (scratch / "balls.data").string()}, {"bed", file}});
+    const Outcome tiled = run(bed_folder() / "in.tile", folder,
+                              given("cell {}, bed {}", (scratch / "balls.data").string(), file));
     EXPECT_TRUE(printed(tiled, "ERROR: drumlin/variable: variable bed " + allowed));
     for (const Outcome &outcome : {settled, placed, tiled}) {
       EXPECT_EQ(outcome.status, 1);
@@ -1044,7 +985,7 @@ TEST_F(Bed, NeedsSpaceForTheRoller) {
         std::array{"r3", "2", "variable r3 is '2'; allowed: a finite number below "}}) {
     const Scratch folder;
     const Variables variables = with(with({{name, value}}, roller()),
-                                     {{"bed", (scratch / "soil.restart").string()}, {"start", "x.restart"}});
+                                     given("bed {}, start x.restart", (scratch / "soil.restart").string()));
     EXPECT_TRUE(fails_with(run_deck(bed_folder() / "in.place", variables, folder.path()), says)) << name;
     EXPECT_FALSE(fs::exists(folder / "x.restart"));
   }
@@ -1053,9 +994,7 @@ TEST_F(Bed, NeedsSpaceForTheRoller) {
 /// The same beds in LAMMPS.
 class BedInLammps : public Bed {
 protected:
-  void SetUp() override {
-    if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  }
+  void SetUp() override { SKIP_WITHOUT_LAMMPS(true); }
   static Outcome shake(const Scratch &folder, const Variables &more, int ranks = 1) {
     return run(bed_folder() / "in.bed.lammps", folder, more, ranks);
   }
@@ -1071,11 +1010,10 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnSeveralRanksWithNewtonOffAndOn) {
     Variables variables;
     bool split;
   };
-  const std::vector<Law> laws = {
-      {{}, true},
-      {{{"stepping", "second"}}, true},
-      {{{"stepping", "second"}, {"transition", "A"}}, false},
-      {{{"transition", "A"}, {"friction", "0"}, {"allow_change", "friction"}}, false}};
+  const std::vector<Law> laws = {{{}, true},
+                                 {{{"stepping", "second"}}, true},
+                                 {given("stepping second, transition A"), false},
+                                 {given("transition A, friction 0, allow_change friction"), false}};
   using Divisions = std::vector<std::pair<int, const char *>>; // ranks and newton
   for (const char *drum : drums)
     for (const Law &law : laws) {
@@ -1086,22 +1024,21 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnSeveralRanksWithNewtonOffAndOn) {
                                       : Divisions{{1, "off"}, {2, "on"}, {4, "off"}};
       Variables variables = law.variables;
       // A cycle of 100 Hz in steps as long as those of the 2500 in a cycle of 20 Hz.
-      variables.insert(variables.end(), {{"drum", drum},
-                                         {"cycles", "1"},
-                                         {"omega", "628.3185307179587"},
-                                         {"steps_per_cycle", "500"},
-                                         {"samples_per_cycle", "50"}});
+      variables =
+          with(variables,
+               given("drum {}, cycles 1, omega 628.3185307179587, steps_per_cycle 500, samples_per_cycle 50",
+                     drum));
       const Scratch here;
       const std::string fresh = (here / "fresh.restart").string();
       const Variables from_data = with(variables, {{"fresh", fresh}});
       well(run(test_deck("bed_from_data.in"), here, from_data));
-      const Variables in_liggghts = with(variables, {{"start", fresh}, {"balance", "1e30"}});
+      const Variables in_liggghts = with(variables, given("start {}, balance 1e30", fresh));
       well(Bed::shake(here, in_liggghts));
       const post::Table expected = post::read_table(here / "bed.csv");
       for (const auto &[ranks, newton] : divisions) {
         if (ranks > most_ranks()) continue;
         const Scratch there;
-        const Variables in_lammps = with(variables, {{"newton", newton}, {"rest", "0"}, {"balance", "1e30"}});
+        const Variables in_lammps = with(variables, given("newton {}, rest 0, balance 1e30", newton));
         well(shake(there, in_lammps, ranks));
         const post::Table found = post::read_table(there / "bed.csv");
         ASSERT_EQ(found.rows(), expected.rows());
@@ -1128,19 +1065,16 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnSeveralRanksWithNewtonOffAndOn) {
 TEST_F(BedInLammps, SettlesAndCarriesTheRollerAtRest) {
   const Scratch folder;
   const Variables at_rest = {{"ratio", "1e-2"}};
-  const Variables settling = with(
-      at_rest, {{"balls", (scratch / "balls.data").string()}, {"bed", "soil.restart"}, {"case", "loose"}});
+  const Variables settling =
+      with(at_rest, given("balls {}, bed soil.restart, case loose", (scratch / "balls.data").string()));
   well(run_deck(bed_folder() / "in.settle.lammps", settling, folder.path()));
   const Variables placing =
-      with(with(roller(), {{"bed", "soil.restart"}, {"start", "ball.restart"}, {"sink", "0.1"}}), at_rest);
+      with(with(roller(), given("bed soil.restart, start ball.restart, sink 0.1")), at_rest);
   EXPECT_TRUE(printed(well(run_deck(bed_folder() / "in.place.lammps", placing, folder.path())),
                       "The drum at rest: its lowest point is "));
-  well(shake(folder, {{"start", "ball.restart"},
-                      {"Fw", "0"},
-                      {"cycles", "1"},
-                      {"omega", "3141.6"},
-                      {"steps_per_cycle", "100"},
-                      {"samples_per_cycle", "10"}}));
+  well(shake(
+      folder,
+      given("start ball.restart, Fw 0, cycles 1, omega 3141.6, steps_per_cycle 100, samples_per_cycle 10")));
   const post::Table rows = post::read_table(folder / "bed.csv");
   EXPECT_NEAR(rows.numbers("F_contact").front(), roller_mass * gravity, 1e-3 * roller_mass * gravity);
   const double weight = (roller_mass + soil_mass()) * gravity;
@@ -1152,10 +1086,10 @@ TEST_F(BedInLammps, GoesAsInLiggghtsWithRollingFriction) {
     const fs::path bed = settled(scheme, "0.1");
     const Scratch here, there;
     const std::string start = (bed / "ball.restart").string(), fresh = (here / "fresh.restart").string();
-    well(
-        run(test_deck("bed_from_data.in"), here, {{"start", start}, {"fresh", fresh}, {"stepping", scheme}}));
-    Variables variables = {
-        {"start", fresh}, {"stepping", scheme}, {"boundary", boundary}, {"cycles", "1"}, {"balance", "1e30"}};
+    well(run(test_deck("bed_from_data.in"), here,
+             given("start {}, fresh {}, stepping {}", start, fresh, scheme)));
+    Variables variables =
+        given("start {}, stepping {}, boundary {}, cycles 1, balance 1e30", fresh, scheme, boundary);
     well(Bed::shake(here, variables));
     variables.front().second = start;
     variables.emplace_back("rest", "0");
@@ -1183,9 +1117,9 @@ TEST_F(BedInLammps, DumpsWhatLiggghtsDumpsOnRanksOneAndTwo) {
                              {"stepping", stepping}};
     const Scratch here;
     well(run(test_deck("bed_from_data.in"), here,
-             {{"fresh", (here / "fresh.restart").string()}, {"stepping", stepping}}));
+             given("fresh {}, stepping {}", (here / "fresh.restart").string(), stepping)));
     const Variables in_liggghts =
-        with(often, {{"start", (here / "fresh.restart").string()}, {"balance", "1e30"}});
+        with(often, given("start {}, balance 1e30", (here / "fresh.restart").string()));
     well(Bed::shake(here, in_liggghts));
     const std::map<long, post::StepDump> expected = post::dumped_steps(here / "dump");
     ASSERT_EQ(expected.size(), 6u);
@@ -1193,7 +1127,7 @@ TEST_F(BedInLammps, DumpsWhatLiggghtsDumpsOnRanksOneAndTwo) {
       const Scratch there;
       fs::create_directory(there / "dump");
       std::ofstream(there / "dump/balls_7.dump") << "old";
-      const Variables in_lammps = with(often, {{"newton", newton}, {"rest", "0"}, {"balance", "1e30"}});
+      const Variables in_lammps = with(often, given("newton {}, rest 0, balance 1e30", newton));
       well(shake(there, in_lammps, ranks));
       const std::map<long, post::StepDump> found = post::dumped_steps(there / "dump");
       ASSERT_EQ(found.size(), 6u);
@@ -1273,7 +1207,7 @@ TEST_F(BedInLammps, RefusesWhatItDoesNotHaveOnRanksOneAndTwo) {
 }
 
 TEST_F(BedInLammps, DumpsIntoFoldersOfAnyName) {
-  expect_dumps_into_folders_of_any_name("in.bed.lammps", {{"rest", "0"}, {"balance", "1e30"}});
+  expect_dumps_into_folders_of_any_name("in.bed.lammps", given("rest 0, balance 1e30"));
 }
 
 TEST_F(BedInLammps, OnAFullDiskCutDumpsAreAnError) {
@@ -1282,7 +1216,7 @@ TEST_F(BedInLammps, OnAFullDiskCutDumpsAreAnError) {
 }
 
 TEST_F(BedInLammps, EndsAtASignalAndContinues) {
-  expect_ends_at_a_signal("in.bed.lammps", {{"rest", "0"}, {"balance", "1e30"}});
+  expect_ends_at_a_signal("in.bed.lammps", given("rest 0, balance 1e30"));
 }
 
 // Three dimensions: spheres, a cylinder of soil-sized balls on a cell that was copied, periodic all around.
@@ -1308,10 +1242,10 @@ TEST_F(Bed, TakesARollerFromItsFileOnRanksOneAndTwo) {
   const Scratch folder;
   const std::string file = roller_file(folder, roller(), 2940.0, 50.0).string();
   const std::string start = (folder / "drum.restart").string();
-  const Variables soil = {{"bed", (scratch / "soil.restart").string()}, {"start", start}};
-  well(run_deck(bed_folder() / "in.place", with({{"roller", file}, {"r3", "0.05"}}, soil), folder.path()));
+  const Variables soil = given("bed {}, start {}", (scratch / "soil.restart").string(), start);
+  well(run_deck(bed_folder() / "in.place", with(given("roller {}, r3 0.05", file), soil), folder.path()));
   const auto shaken = [&](const char *deck, const Variables &more, int ranks) {
-    const Variables variables = with(more, {{"start", start}, {"cycles", "1"}, {"samples_per_cycle", "100"}});
+    const Variables variables = with(more, given("start {}, cycles 1, samples_per_cycle 100", start));
     const Outcome outcome = run_deck(bed_folder() / deck, variables, folder.path(), ranks);
     EXPECT_TRUE(outcome.ok()) << outcome.output;
     return read_text(folder / "bed.csv");
@@ -1320,10 +1254,11 @@ TEST_F(Bed, TakesARollerFromItsFileOnRanksOneAndTwo) {
   for (const auto &[deck, ranks] : {std::pair{"in.bed", 1}, {"in.bed.lammps", 2}}) {
     const bool lammps = ranks == 2;
     if (lammps && !post::has_lammps()) continue;
-    const Variables without_rest = lammps ? Variables{{"rest", "0"}, {"balance", "1e30"}} : Variables{};
+    const Variables without_rest = lammps ? given("rest 0, balance 1e30") : Variables{};
     const std::string from_file = shaken(deck, without_rest, ranks);
     const std::map<std::string, std::string> noted = post::read_parameters(folder / "parameters.csv");
-    const Variables by_value = with(without_rest, {{"omega", noted.at("omega")}, {"Fw", noted.at("Fw")}});
+    const Variables by_value =
+        with(without_rest, given("omega {}, Fw {}", noted.at("omega"), noted.at("Fw")));
     EXPECT_EQ(shaken(deck, by_value, ranks), from_file) << deck;
     EXPECT_NEAR(std::stod(noted.at("omega")), 314.1592653589793, 1e-9);
     EXPECT_NEAR(std::stod(noted.at("m2")), 100.0, 1e-9);
@@ -1332,13 +1267,13 @@ TEST_F(Bed, TakesARollerFromItsFileOnRanksOneAndTwo) {
     EXPECT_EQ(noted.at("steps_per_cycle"), "1000"); // 2500 at 20 Hz
   }
   // A value that differs from that of the file counts, and must be the bed's.
-  EXPECT_TRUE(fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}, {"m2", "200"}}, folder.path()),
+  EXPECT_TRUE(fails_with(run_deck(bed_folder() / "in.bed", given("start {}, m2 200", start), folder.path()),
                          "drumlin/variable: variable m2 is '200'; allowed: 100"));
   EXPECT_TRUE(
-      fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}, {"setting", "high"}}, folder.path()),
+      fails_with(run_deck(bed_folder() / "in.bed", given("start {}, setting high", start), folder.path()),
                  "drumlin/roller: setting is 'high'; allowed: none, of "));
   EXPECT_TRUE(
-      fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}, {"roller", "other"}}, folder.path()),
+      fails_with(run_deck(bed_folder() / "in.bed", given("start {}, roller other", start), folder.path()),
                  "drumlin/roller: roller is 'other'; allowed: a file that can be read"));
   std::ofstream(file, std::ios::app) << "operating_mass 10 kg\n";
   EXPECT_TRUE(fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}}, folder.path()),
@@ -1349,8 +1284,8 @@ TEST_F(Bed, SaysWhenTheDrumTouchesFewBalls) {
   const Scratch folder;
   const auto placed = [&](const char *r2) {
     return run_deck(bed_folder() / "in.place",
-                    with({{"r2", r2}}, with(roller(), {{"bed", (scratch / "soil.restart").string()},
-                                                       {"start", "x.restart"}})),
+                    with({{"r2", r2}}, with(roller(), given("bed {}, start x.restart",
+                                                            (scratch / "soil.restart").string()))),
                     folder.path());
   };
   // A round drum stands on two balls, or on one.
@@ -1359,11 +1294,11 @@ TEST_F(Bed, SaysWhenTheDrumTouchesFewBalls) {
 
 TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
   const Scratch scratch;
-  const Variables per_metre = {{"m2", "1000"}, {"m3", "500"}, {"r2", "0.1"}, {"k23", "5e5"}, {"c23", "5e3"}};
+  const Variables per_metre = given("m2 1000, m3 500, r2 0.1, k23 5e5, c23 5e3");
   const std::string roller = roller_file(scratch, per_metre, 29400.0, 20.0).string();
   const auto file = [&scratch](const char *name) { return (scratch / name).string(); };
   const auto run = [&](const Scratch &folder, const char *deck, Variables variables, int ranks = 1) {
-    variables.insert(variables.end(), {{"case", "loose3d"}, {"walls", "0"}});
+    variables = with(variables, given("case loose3d, walls 0"));
     const std::string name = deck;
     if (name == "in.settle") variables.emplace_back("roller", roller); // and from there to the others
     if (name == "in.tile") variables.emplace_back("cell", file("cell.data"));
@@ -1376,10 +1311,9 @@ TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
       variables.emplace_back("start", file("roller.restart"));
     return run_deck(bed_folder() / deck, variables, folder.path(), ranks);
   };
-  well(run_program(
-      {DRUMLIN_TOOLS, "bed", "--balls", "100", "--width", "0.15", "--depth", "0.1", "--out", "balls.data"},
-      {}, scratch.path()));
-  well(run(scratch, "in.settle", {{"balls", file("balls.data")}, {"bed", file("cell")}}));
+  well(run_program(tool_words("bed --balls 100 --width 0.15 --depth 0.1 --out balls.data"), {},
+                   scratch.path()));
+  well(run(scratch, "in.settle", given("balls {}, bed {}", file("balls.data"), file("cell"))));
   EXPECT_TRUE(fails_with(run(scratch, "in.tile", {{"copies_x", "3"}}, 2),
                          "/cell.data' on 2 ranks; allowed: one rank"));
   well(run(scratch, "in.tile", {{"copies_x", "3"}}));
@@ -1412,8 +1346,8 @@ TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
   for (const auto &[ranks, newton] : {std::pair{1, "off"}, {2, "on"}, {2, "off"}, {1, "on"}}) {
     if (most_ranks() == 2 && in_lammps.size() == 2) break; // by night
     const Scratch folder;
-    well(run(folder, "in.bed.lammps",
-             {{"steps_per_cycle", "4000"}, {"newton", newton}, {"rest", "0"}, {"balance", "1e30"}}, ranks));
+    well(run(folder, "in.bed.lammps", given("steps_per_cycle 4000, newton {}, rest 0, balance 1e30", newton),
+             ranks));
     in_lammps.push_back(post::read_table(folder / "bed.csv").numbers("x_drum"));
     EXPECT_LT(imbalance(folder / "bed.csv"), 0.01);
   }
@@ -1432,9 +1366,8 @@ double farthest_from_chain(const Variables &row, double stiffness_share, int ran
   double worst = 0.0;
   for (const auto &[transition, stepping] : {std::pair{"A", "second"}, {"B", "second"}, {"B", "stock"}}) {
     const Scratch bed, chain;
-    const Variables variables = with(
-        row,
-        {{"here", bed_folder().string()}, {"D", "0.5"}, {"transition", transition}, {"stepping", stepping}});
+    const Variables variables = with(row, given("here {}, D 0.5, transition {}, stepping {}",
+                                                bed_folder().string(), transition, stepping));
     well(run_deck(test_deck("frozen_row.in"), variables, bed.path(), ranks));
     well(run_deck(chain_deck("in.chain"),
                   {{"k", number(1e8 * stiffness_share)},

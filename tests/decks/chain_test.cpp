@@ -1,25 +1,15 @@
-// The chain of in.chain in the engine against CVODE: the four cases under A and B, the order of
-// the stepping, the equilibrium that it starts from, and Eq. (1) in every recorded row.
+// The chain in the engine, its energy balance, and fix drum/excite.
 #include "tests/support/chain_by_cvode.h"
-#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
-
 #include "chain/analysis.h"
 #include "chain/exact_solution.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <ostream>
-#include <sstream>
-#include <string>
-#include <vector>
-
 namespace drumlin::test {
 namespace {
+
+// The chain of in.chain in the engine against CVODE: the four cases under A and B, the order of
+// the stepping, the equilibrium that it starts from, and Eq. (1) in every recorded row.
+namespace chain {
 
 namespace fs = std::filesystem;
 
@@ -95,8 +85,7 @@ TEST(ChainWithAnOverdampedBond, FollowsTheDirectSolver) {
   ChainParameters p = post::table1_case("II", Transition::B);
   for (const double c23 : {1e8, 1e9, 1e10}) {
     p.c23 = c23;
-    const ChainRun run =
-        run_chain("II", Transition::B, 2000, 200, {{"c23", number(c23)}, {"stepping", "second"}});
+    const ChainRun run = run_chain("II", Transition::B, 2000, 200, given("c23 {}, stepping second", c23));
     EXPECT_LT(velocity_error(run.history, reference_of(p, 200).history), 1e-3) << c23;
   }
 }
@@ -304,8 +293,8 @@ constexpr std::array<RollerInFile, 7> rollers = {
      {"CA6500", "low", 5166, 8679, 7.96e6, 7.96e4, 30, 4.222}}};
 
 Variables of_file(const RollerInFile &roller) {
-  return {{"roller", (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers" / roller.file).string()},
-          {"setting", roller.setting}};
+  return given("roller {}, setting {}",
+               (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers" / roller.file).string(), roller.setting);
 }
 
 TEST(Rollers, OfFilesFollowTheDirectSolver) {
@@ -321,7 +310,7 @@ TEST(Rollers, OfFilesFollowTheDirectSolver) {
     p.Fw = roller.me_re * p.omega * p.omega;
     for (const Transition transition : {Transition::A, Transition::B}) {
       p.transition = transition;
-      const Variables variables = with({{"stepping", "second"}, {"cycles", "3"}}, of_file(roller));
+      const Variables variables = with(given("stepping second, cycles 3"), of_file(roller));
       const ChainRun run = run_chain("II", transition, 2000, samples, variables);
       const post::ExactSolution reference = reference_of(p, samples, 3);
       ASSERT_EQ(run.history.size(), reference.history.size());
@@ -340,16 +329,15 @@ TEST(Rollers, TheForceFollowsFromTheFrequencyUnlessItIsGiven) {
     return *std::max_element(force.begin(), force.end());
   };
   EXPECT_NEAR(largest_force({{"omega", "200"}}), 7.38 * 200 * 200, 1e-3);
-  EXPECT_NEAR(largest_force({{"omega", "200"}, {"Fw", "1e5"}}), 1e5, 1e-6);
+  EXPECT_NEAR(largest_force(given("omega 200, Fw 1e5")), 1e5, 1e-6);
 }
 
 TEST(Rollers, AreNotedWithWhatFollowsFromThem) {
   for (const bool lammps : {false, true}) {
     if (lammps && !post::has_lammps()) continue;
     const Scratch folder;
-    const Outcome outcome =
-        run_deck(chain_deck(lammps ? "in.chain.lammps" : "in.chain"),
-                 with({{"cycles", "1"}, {"out", "."}}, of_file(rollers[4])), folder.path());
+    const Outcome outcome = run_deck(chain_deck(lammps ? "in.chain.lammps" : "in.chain"),
+                                     with(given("cycles 1, out ."), of_file(rollers[4])), folder.path());
     EXPECT_TRUE(printed(well(outcome), "exciter_force_per_metre  79811.3 N/m"));
     const std::map<std::string, std::string> noted = post::read_parameters(folder / "parameters.csv");
     EXPECT_EQ(noted.at("setting"), "low");
@@ -369,7 +357,7 @@ TEST(ChainUnderB, ContactIsMadeAgainWhileOverlapping) {
   ChainParameters p = post::table1_case("II", Transition::B);
   p.k = 1e7;
   p.D = 0.5;
-  const ChainRun run = run_chain("II", Transition::B, 2000, 200, {{"k", "1e7"}, {"D", "0.5"}});
+  const ChainRun run = run_chain("II", Transition::B, 2000, 200, given("k 1e7, D 0.5"));
   const post::ExactSolution reference = reference_of(p, 200);
   const auto again = [&](const std::vector<post::ContactEvent> &events) {
     return std::count_if(events.begin(), events.end(), [&](const post::ContactEvent &event) {
@@ -388,9 +376,8 @@ TEST(ChainUnderB, ContactIsMadeAgainWhileOverlapping) {
 
 TEST(Settle, FindsAChainWithoutDampingAtRest) {
   const Scratch scratch;
-  EXPECT_TRUE(printed(
-      well(run_deck(chain_deck("in.chain"), {{"D", "0"}, {"c23", "0"}, {"cycles", "1"}}, scratch.path())),
-      "after 0 steps"));
+  EXPECT_TRUE(printed(well(run_deck(chain_deck("in.chain"), given("D 0, c23 0, cycles 1"), scratch.path())),
+                      "after 0 steps"));
 }
 
 // Two exciters of other frequencies: the record has the sum of their forces, with which the motion obeys
@@ -404,8 +391,7 @@ TEST(TwoExciters, GiveTheSumOfTheirForcesAndTheirWork) {
   put("bond bond axis 0 0", "excite second ");
   const Scratch scratch;
   std::ofstream(scratch / "two.in") << deck;
-  well(run_deck(scratch / "two.in",
-                {{"here", chain_deck("").parent_path().string()}, {"cycles", "20"}, {"out", "."}},
+  well(run_deck(scratch / "two.in", given("here {}, cycles 20, out .", chain_deck("").parent_path().string()),
                 scratch.path()));
   const ChainHistory run = post::read_chain(scratch / "chain.csv");
   const double omega = post::table1_case("II", Transition::B).omega;
@@ -441,8 +427,7 @@ TEST(HeavyDamping, SecondOrderSteppingFollowsTheDirectSolver) {
   const ChainHistory reference = reference_of(p, 50, 3).history;
   for (const int steps : {400, 4000}) {
     const ChainHistory run =
-        run_chain("II", Transition::B, steps, 50, {{"D", "1e4"}, {"cycles", "3"}, {"stepping", "second"}})
-            .history;
+        run_chain("II", Transition::B, steps, 50, given("D 1e4, cycles 3, stepping second")).history;
     EXPECT_LT(post::relative_rms(run.v_drum, reference.v_drum, 0, reference.size()),
               steps == 400 ? 0.1 : 5e-3);
   }
@@ -455,8 +440,7 @@ TEST(HeavyDamping, OfTheBondFollowsTheDirectSolverToo) {
   std::vector<double> all_steps, errors;
   for (const int steps : {200, 800, 1600, 3200}) {
     const ChainHistory run =
-        run_chain("IV", Transition::B, steps, 50, {{"c23", "1e7"}, {"cycles", "3"}, {"stepping", "second"}})
-            .history;
+        run_chain("IV", Transition::B, steps, 50, given("c23 1e7, cycles 3, stepping second")).history;
     const double error = post::relative_rms(run.v_drum, reference.v_drum, 0, reference.size());
     EXPECT_LT(error, 1e-3) << steps;
     if (steps == 200)
@@ -475,9 +459,8 @@ TEST(HeavyDamping, LongStepsLeaveAChainAtRestAtRest) {
   for (const char *D : {"0", "2", "100", "1e4"})
     for (const char *c23 : {"0", "1e4", "1e8"}) {
       const ChainHistory h =
-          run_chain(
-              "II", Transition::A, 725, 5,
-              {{"D", D}, {"c23", c23}, {"Fw", "0"}, {"omega", "1"}, {"cycles", "20"}, {"stepping", "second"}})
+          run_chain("II", Transition::A, 725, 5,
+                    given("D {}, c23 {}, Fw 0, omega 1, cycles 20, stepping second", D, c23))
               .history;
       for (const double x : h.x_drum)
         ASSERT_NEAR(x, -static_overlap, 1e-9 * static_overlap) << "D = " << D << ", c23 = " << c23;
@@ -487,10 +470,8 @@ TEST(HeavyDamping, LongStepsLeaveAChainAtRestAtRest) {
 /// Eight balls, w0 dt from 0.7 to `highest`, each pushed by 1e-6 m between walls.
 void expect_rest_between_walls(const std::filesystem::path &deck, const Scratch &scratch, const char *D,
                                const char *scene = "two", const char *highest = "1.4") {
-  well(run_deck(
-      deck,
-      {{"scene", scene}, {"D", D}, {"balls", "8"}, {"lowest", "0.7"}, {"highest", highest}, {"half", "2000"}},
-      scratch.path()));
+  well(run_deck(deck, given("scene {}, D {}, balls 8, lowest 0.7, highest {}, half 2000", scene, D, highest),
+                scratch.path()));
   const std::string looks = read_text(scratch / "looks.dump");
   std::istringstream last(looks.substr(looks.rfind("ITEM: ATOMS id x z \n")));
   std::string header;
@@ -538,14 +519,283 @@ TEST(HeavyDamping, BetweenFourWallsIsStableUpToTheLimitOfTheSprings) {
 TEST(Settle, NamesASceneThatNeverSettles) {
   const Scratch scratch;
   // So soft that the drum starts from a first touch, not from its equilibrium.
-  const Outcome outcome =
-      run_deck(chain_deck("in.chain"),
-               {{"D", "0"}, {"c23", "0"}, {"k", "5.8e4"}, {"guard", "off"}, {"settle_limit", "50000"}},
-               scratch.path());
+  const Outcome outcome = run_deck(
+      chain_deck("in.chain"), given("D 0, c23 0, k 5.8e4, guard off, settle_limit 50000"), scratch.path());
   EXPECT_EQ(outcome.status, 1);
   EXPECT_FALSE(outcome.timed_out);
   EXPECT_TRUE(printed(outcome, {"ERROR: drumlin/settle: unbalanced ratio is '", "after 50000 steps"}));
 }
+
+} // namespace chain
+
+// The energy balance of the chain: the work of the exciter is the energy dissipated in contact and bond plus
+// the change of the mechanical energy. The energy error is that of the integration scheme, which falls with
+// the step.
+namespace energy_balance {
+
+using post::ChainHistory;
+using post::ChainParameters;
+using post::Transition;
+
+/// Sums over the run, J.
+struct EnergyBalance {
+  double work = 0, contact = 0, bond = 0, stored = 0;
+  double error() const { return (work - contact - bond - stored) / work; }
+};
+
+EnergyBalance balance_of(const post::Table &table) {
+  const auto last = [&](const char *column) { return table.numbers(column).back(); };
+  EnergyBalance balance{last("work_excitation"), last("dissipated_contact"), last("dissipated_bond"), 0};
+  for (const char *column : {"kinetic", "potential", "stored_contact", "stored_bond"})
+    balance.stored += last(column) - table.numbers(column).front();
+  return balance;
+}
+
+/// The same from the rows of chain.csv by the trapezoid rule, from Eq. (1) alone.
+EnergyBalance balance_of(const ChainHistory &h, const ChainParameters &p) {
+  EnergyBalance balance;
+  const auto energy = [&](std::size_t n) {
+    const double stretch = h.x_frame[n] - h.x_drum[n];
+    const double overlap = std::max(0.0, -h.x_drum[n]);
+    return 0.5 * (p.m2 * h.v_drum[n] * h.v_drum[n] + p.m3 * h.v_frame[n] * h.v_frame[n] +
+                  p.k * overlap * overlap + p.k23 * stretch * stretch) +
+           p.g * (p.m2 * h.x_drum[n] + p.m3 * h.x_frame[n]);
+  };
+  for (std::size_t n = 0; n + 1 < h.size(); ++n) {
+    const double half = 0.5 * (h.time[n + 1] - h.time[n]);
+    for (const std::size_t end : {n, n + 1}) {
+      const double overlap = std::max(0.0, -h.x_drum[end]);
+      const double rate = h.v_frame[end] - h.v_drum[end];
+      balance.work -= half * h.F_excitation[end] * h.v_drum[end];
+      // The contact takes Fc d', its spring k d d' of it.
+      balance.contact += half * (p.k * overlap - h.F_contact[end]) * h.v_drum[end];
+      balance.bond += half * p.c23 * rate * rate;
+    }
+  }
+  balance.stored = energy(h.size() - 1) - energy(0);
+  return balance;
+}
+
+struct Recorded {
+  EnergyBalance balance;
+  ChainHistory history;
+};
+
+Recorded run(const std::string &name, Transition transition, int steps, int samples, int cycles) {
+  const Scratch scratch;
+  well(run_deck(
+      chain_deck("in.chain"),
+      given("case {}, transition {}, stepping stock, steps_per_cycle {}, samples_per_cycle {}, cycles {}",
+            name, post::transition_name(transition), steps, samples, cycles),
+      scratch.path()));
+  return {balance_of(post::read_table(scratch / "cycles.csv")), post::read_chain(scratch / "chain.csv")};
+}
+
+class Energy : public ::testing::TestWithParam<std::string> {};
+
+// The file's sums are those of its rows: by their own trapezoids, and to rounding.
+TEST_P(Energy, SumsAreThoseOfTheRows) {
+  for (const Transition transition : {Transition::A, Transition::B}) {
+    const ChainParameters p = post::table1_case(GetParam(), transition);
+    const Recorded recorded = run(GetParam(), transition, 1000, 1000, 8);
+    const EnergyBalance expected = balance_of(recorded.history, p);
+    const EnergyBalance &found = recorded.balance;
+    EXPECT_NEAR(found.work, expected.work, 1e-9 * expected.work);
+    EXPECT_NEAR(found.contact, expected.contact, 1e-9 * expected.work);
+    EXPECT_NEAR(found.bond, expected.bond, 1e-9 * expected.work);
+    EXPECT_NEAR(found.stored, expected.stored, 1e-9 * expected.work);
+    EXPECT_GT(found.contact, 0.1 * found.work);
+    EXPECT_GT(found.bond, 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Table1, Energy, ::testing::Values("I", "II", "III", "IV"),
+                         [](const auto &test) { return test.param; });
+
+TEST(EnergyOfASmoothChain, ErrorIsOfFirstOrder) {
+  for (const auto &[name, transition] : {std::pair{"I", Transition::A}, std::pair{"IV", Transition::A}}) {
+    std::vector<double> steps, errors;
+    for (const int n : {500, 1000, 2000, 4000}) {
+      steps.push_back(n);
+      errors.push_back(std::fabs(run(name, transition, n, 10, 20).balance.error()));
+    }
+    RecordProperty(std::string("order_") + name, number(fitted_order(steps, errors)));
+    RecordProperty(std::string("error_at_4000_") + name, number(errors.back()));
+    EXPECT_NEAR(fitted_order(steps, errors), -1, 0.1) << name;
+    EXPECT_LT(errors.back(), 2e-3) << name;
+  }
+}
+
+// The energy of a spring that breaks is heat from then on.
+TEST(EnergyOfAChain, WhoseBondBreaksIsKept) {
+  const Scratch scratch;
+  std::string deck = post::read_text(chain_deck("in.chain"));
+  const std::string length = "length $(v_r2+v_r3)";
+  deck.replace(deck.find(length), length.size(), length + " strength 1.5e4");
+  post::write_files({{scratch / "deck", deck}});
+  const Outcome outcome =
+      run_deck(scratch / "deck", given("here {}, case II, transition B, cycles 6", chain_deck("").string()),
+               scratch.path());
+  well(outcome);
+  EXPECT_TRUE(contains(outcome.output, "the bond of balls 2 and 3 broke at step "));
+  const EnergyBalance balance = balance_of(post::read_table(scratch / "cycles.csv"));
+  EXPECT_GT(balance.bond, 200.0); // of them 51 J in the spring
+  EXPECT_NEAR(balance.error(), 0.0, 1e-4);
+}
+
+// A make falls anywhere within a step, and the energy error depends on where. The measure is its largest
+// value over neighbouring numbers of steps.
+TEST(EnergyOfAnImpactingChain, ErrorHasAnEnvelopeOfFirstOrder) {
+  for (const auto &[name, transition] : {std::pair{"II", Transition::A}, std::pair{"II", Transition::B},
+                                         std::pair{"III", Transition::B}, std::pair{"IV", Transition::B}}) {
+    const auto envelope = [&, n = name, t = transition](int level) {
+      double largest = 0;
+      for (const int base : {480, 510, 540, 570})
+        largest = std::max(largest, std::fabs(run(n, t, level * base, 10, 20).balance.error()));
+      return largest;
+    };
+    const double coarse = envelope(1), fine = envelope(4);
+    RecordProperty(std::string("envelope_") + name + post::transition_name(transition),
+                   number(coarse) + ", " + number(fine));
+    EXPECT_LT(fine, 0.4 * coarse) << name << post::transition_name(transition);
+    EXPECT_LT(fine, 1e-2) << name << post::transition_name(transition);
+  }
+}
+
+} // namespace energy_balance
+
+// Free balls under fix drum/excite: velocity and position against fine quadrature of the force that the
+// documentation gives, computed here independently.
+namespace excite {
+
+using Vector = std::array<double, 3>;
+
+struct Drive {
+  const char *name;
+  std::string words;
+  std::function<Vector(double)> force; // N, at time t in s
+};
+
+void PrintTo(const Drive &value, std::ostream *out) { *out << value.words; }
+
+constexpr double Fw = 5e4, w = 150.0;
+
+Vector along(const Vector &n, double F) { return {n[0] * F, n[1] * F, n[2] * F}; }
+constexpr Vector up{0, 0, 1};
+
+/// Linear growth from w to w2 within T: angle, frequency.
+double swept_angle(double w2, double T, double s) {
+  return s < T ? w * s + (w2 - w) * s * s / (2 * T) : (w + w2) / 2 * T + w2 * (s - T);
+}
+double swept_frequency(double w2, double T, double s) { return s < T ? w + (w2 - w) * s / T : w2; }
+
+const Drive drives[] = {
+    {"directed", "amplitude 5e4 omega 150 direction 0 0 1",
+     [](double t) { return along(up, Fw * std::sin(w * t)); }},
+    {"gravity", "amplitude 5e4 omega 150", [](double t) { return along(up, -Fw * std::sin(w * t)); }},
+    {"oblique", "amplitude 5e4 omega 150 direction 3 0 -4",
+     [](double t) {
+       return along({0.6, 0, -0.8}, Fw * std::sin(w * t));
+     }},
+    {"frequency", "amplitude 5e4 frequency 23.873241463784300 direction 0 0 1",
+     [](double t) { return along(up, Fw * std::sin(w * t)); }},
+    {"phase", "phase 0.7 amplitude 5e4 omega 150 direction 0 0 1",
+     [](double t) { return along(up, Fw * std::sin(w * t + 0.7)); }},
+    {"start", "amplitude 5e4 omega 150 start 0.02 direction 0 0 1",
+     [](double t) { return along(up, t < 0.02 ? 0 : Fw * std::sin(w * (t - 0.02))); }},
+    {"ramp", "amplitude 5e4 omega 150 ramp 0.05 phase 1 direction 0 0 1",
+     [](double t) { return along(up, std::min(1.0, t / 0.05) * Fw * std::sin(w * t + 1)); }},
+    {"sweep", "amplitude 5e4 omega 150 sweep 400 0.08 direction 0 0 1",
+     [](double t) { return along(up, Fw * std::sin(swept_angle(400, 0.08, t))); }},
+    {"eccentric", "eccentric 2.5 0.04 omega 150 direction 0 0 1",
+     [](double t) { return along(up, 2.5 * 0.04 * w * w * std::sin(w * t)); }},
+    {"eccentric_sweep", "eccentric 2.5 0.04 omega 150 sweep 50 0.06 start 0.01 ramp 0.02 direction 0 0 1",
+     [](double t) {
+       const double s = std::max(0.0, t - 0.01);
+       const double v = swept_frequency(50, 0.06, s);
+       return along(up, std::min(1.0, s / 0.02) * 2.5 * 0.04 * v * v * std::sin(swept_angle(50, 0.06, s)));
+     }},
+    {"rotating", "amplitude 5e4 omega 150 direction 0 0 -1 mode rotating axis 0 1 0",
+     // Axis x direction is (0,1,0) x (0,0,-1) = (-1,0,0).
+     [](double t) {
+       return Vector{-Fw * std::cos(w * t), 0, -Fw * std::sin(w * t)};
+     }},
+};
+
+class Excitation : public ::testing::TestWithParam<Drive> {};
+
+TEST_P(Excitation, MovesAFreeBallByItsIntegral) {
+  constexpr double dt = 2e-5, mass = 2000, g = 9.81;
+  constexpr int steps = 6000; // nearly three cycles
+  const bool falls = std::string(GetParam().name) == "gravity";
+  const BallsRun run =
+      run_balls(given("obstacle plane, gap 0.5, fixed 3, g {}, excitation {}, dt {}, steps {}, every 10",
+                      falls ? "9.81" : "0", GetParam().words, dt, steps));
+  ASSERT_EQ(run.frames.size(), steps / 10 + 1u);
+  // v by Simpson's rule over fine panels, x by the same of v: x(t + h) = x + h v + integral of (h - s) a(s).
+  constexpr int panels = 20; // within ten steps
+  const double h = 10 * dt / panels;
+  Vector v{}, x{}, largest_v{}, largest_x{}, error_v{}, error_x{}, error_f{};
+  const Ball start = run.frames.front().balls.at(1);
+  for (std::size_t n = 0; n < run.frames.size(); ++n) {
+    const double t = 10 * dt * static_cast<double>(n);
+    const Ball &ball = run.frames[n].balls.at(1);
+    const Vector exact_force = GetParam().force(t);
+    for (std::size_t a = 0; a < 3; ++a) {
+      error_v[a] = std::max(error_v[a], std::fabs(ball.v[a] - v[a]));
+      error_x[a] = std::max(error_x[a], std::fabs(ball.x[a] - start.x[a] - x[a]));
+      const double weight = falls && a == 2 ? -mass * g : 0;
+      error_f[a] = std::max(error_f[a], std::fabs(ball.f[a] - exact_force[a] - weight));
+      largest_v[a] = std::max(largest_v[a], std::fabs(v[a]));
+      largest_x[a] = std::max(largest_x[a], std::fabs(x[a]));
+    }
+    for (int panel = 0; panel < panels; ++panel) {
+      const double begin = t + panel * h;
+      const Vector f0 = GetParam().force(begin), f1 = GetParam().force(begin + h / 2),
+                   f2 = GetParam().force(begin + h);
+      for (std::size_t a = 0; a < 3; ++a) {
+        const double weight = falls && a == 2 ? -mass * g : 0;
+        x[a] += h * v[a] + h * h / 6 * (f0[a] + 2 * f1[a] + 3 * weight) / mass;
+        v[a] += h / 6 * (f0[a] + 4 * f1[a] + f2[a] + 6 * weight) / mass;
+      }
+    }
+  }
+  // The engine's own quadrature is the trapezoid rule: (w dt)^2 / 12 of the force, less where the force has a
+  // kink.
+  const double scale_v = std::max({largest_v[0], largest_v[1], largest_v[2]});
+  const double scale_x = std::max({largest_x[0], largest_x[1], largest_x[2]});
+  for (std::size_t a = 0; a < 3; ++a) {
+    EXPECT_LT(error_f[a], 1e-9 * Fw) << "axis " << a;
+    EXPECT_LT(error_v[a], 2e-5 * scale_v) << "axis " << a;
+    EXPECT_LT(error_x[a], 2e-5 * scale_x) << "axis " << a;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Words, Excitation, ::testing::ValuesIn(drives),
+                         [](const auto &test) { return std::string(test.param.name); });
+
+TEST(ExcitationOfAGroup, IsSharedByMass) {
+  constexpr double m1 = 300, m2 = 4700;
+  const BallsRun run =
+      run_balls(given("gap 0.5, fixed 3, driven 1 2, m1 {}, m2 {}, excitation amplitude 5e4 omega 150 "
+                      "direction 1 0 1 mode rotating axis 0 1 0, dt 1e-4, steps 500",
+                      m1, m2));
+  double largest = 0;
+  for (const Frame &frame : run.frames) {
+    const Ball &one = frame.balls.at(1), &two = frame.balls.at(2);
+    double size = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      ASSERT_NEAR(one.f[a] / m1, two.f[a] / m2, 1e-12 * Fw / (m1 + m2));
+      ASSERT_NEAR(one.v[a], two.v[a], 1e-12);
+      size += (one.f[a] + two.f[a]) * (one.f[a] + two.f[a]);
+      largest = std::max(largest, std::fabs(one.v[a]));
+    }
+    ASSERT_NEAR(std::sqrt(size), Fw, 1e-9 * Fw) << "a rotating force has one size";
+  }
+  EXPECT_GT(largest, Fw / (m1 + m2) / w);
+}
+
+} // namespace excite
 
 } // namespace
 } // namespace drumlin::test

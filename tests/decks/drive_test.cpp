@@ -1,27 +1,10 @@
 // in.drive on a small bed, in two dimensions and with a clump that rolls in three: the roller comes to where
 // its way says, its work balances, and the run is the same on any number of ranks, in pieces and in both
 // engines.
-#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
-
 #include "bed/dump_readers.h"
 #include "engine/engine_command.h"
-#include "support/csv.h"
 #include "support/process.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -38,25 +21,20 @@ protected:
 
   static void SetUpTestSuite() {
     well(run_program(Bed::balls(), {}, scratch().path()));
-    well(run_deck(bed_folder() / "in.settle",
-                  {{"case", Bed::soil}, {"balls", "balls.data"}, {"bed", "soil.restart"}}, scratch().path()));
+    well(run_deck(bed_folder() / "in.settle", given("case {}, balls balls.data, bed soil.restart", Bed::soil),
+                  scratch().path()));
     place("roller.restart", {});
   }
   static void TearDownTestSuite() { scratch(nullptr); }
 
   /// Puts the roller on the bed.
   static void place(const char *file, const Variables &more, const fs::path &decks = bed_folder()) {
-    well(run_deck(decks / "in.place",
-                  with(more, {{"bed", "soil.restart"},
-                              {"start", file},
-                              {"place", Bed::place},
-                              {"m2", "100"},
-                              {"m3", "50"},
-                              {"r2", "0.1"},
-                              {"r3", "0.05"},
-                              {"k23", "5e4"},
-                              {"c23", "500"}}),
-                  scratch().path()));
+    well(run_deck(
+        decks / "in.place",
+        with(more,
+             given("bed soil.restart, start {}, place {}, m2 100, m3 50, r2 0.1, r3 0.05, k23 5e4, c23 500",
+                   file, Bed::place)),
+        scratch().path()));
   }
 
   /// Two passes of 0.2 m at 2 m/s, 50 Hz in steps as long as those of the decks.
@@ -65,16 +43,9 @@ protected:
     return run_deck(bed_folder() / deck, scene(folder, more), folder.path(), ranks);
   }
   static Variables scene(const Scratch &folder, const Variables &more) {
-    return with(more, {{"speed", "2"},
-                       {"ramp", "0.05"},
-                       {"length", "0.2"},
-                       {"margin", "0.05"},
-                       {"omega", "314.1592653589793"},
-                       {"Fw", "2940"},
-                       {"steps_per_cycle", "1000"},
-                       {"samples_per_cycle", "100"},
-                       {"out", folder.path().string()},
-                       {"start", (scratch().path() / "roller.restart").string()}});
+    return with(more, given("speed 2, ramp 0.05, length 0.2, margin 0.05, omega 314.1592653589793, Fw 2940, "
+                            "steps_per_cycle 1000, samples_per_cycle 100, out {}, start {}",
+                            folder.path().string(), (scratch().path() / "roller.restart").string()));
   }
 
   static Scratch &scratch() {
@@ -92,9 +63,7 @@ private:
 
 /// 250 discs in a box of 1 m.
 struct Discs {
-  static std::vector<std::string> balls() {
-    return {DRUMLIN_TOOLS, "bed", "--balls", "250", "--width", "1", "--out", "balls.data"};
-  }
+  static std::vector<std::string> balls() { return tool_words("bed --balls 250 --width 1 --out balls.data"); }
   static constexpr const char *soil = "loose", *place = "-0.2";
 };
 class BedDriven : public Driven<Discs> {};
@@ -102,8 +71,7 @@ class BedDriven : public Driven<Discs> {};
 /// 350 spheres in a box of 0.6 m by 0.1 m; the drum is a clump.
 struct Spheres {
   static std::vector<std::string> balls() {
-    return {DRUMLIN_TOOLS, "bed",     "--balls", "350",   "--width",
-            "0.6",         "--depth", "0.1",     "--out", "balls.data"};
+    return tool_words("bed --balls 350 --width 0.6 --depth 0.1 --out balls.data");
   }
   static constexpr const char *soil = "loose3d", *place = "-0.1";
 };
@@ -163,7 +131,7 @@ TEST_F(BedDriven, ComesToTheEndsOfItsWayAndItsWorkBalances) {
   for (const auto &[rotation, boundary] : scenes) {
     const Scratch folder;
     std::ofstream(folder / "passes.csv") << "of an earlier run\n";
-    well(drive(folder, {{"drum_rotation", rotation}, {"boundary", boundary}, {"steps_per_cycle", "2000"}}));
+    well(drive(folder, given("drum_rotation {}, boundary {}, steps_per_cycle 2000", rotation, boundary)));
     EXPECT_FALSE(fs::exists(folder / "passes.csv"));
     const std::map<long, post::StepDump> dumps = post::dumped_steps(folder / "dump");
     ASSERT_EQ(dumps.size(), 3U);
@@ -201,7 +169,7 @@ TEST_F(BedDriven, ContinuesWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
 TEST_F(BedDriven, KeepsTheFinishedPassesWhenCtrlCStopsItInOne) {
   const Scratch folder;
   std::vector<std::string> words = {"-log", "none"};
-  for (const auto &[name, value] : scene(folder, {{"length", "0.4"}, {"passes", "40"}}))
+  for (const auto &[name, value] : scene(folder, given("length 0.4, passes 40")))
     words.insert(words.end(), {"-var", name, value});
   const post::EngineCommand command = post::engine_command(bed_folder() / "in.drive", words, 1);
   post::Program program;
@@ -215,7 +183,7 @@ TEST_F(BedDriven, KeepsTheFinishedPassesWhenCtrlCStopsItInOne) {
   const Outcome stopped = post::run_program(program);
   EXPECT_TRUE(fails_with(stopped, "ERROR: drumlin/run: stopped by a signal at step "));
   const Outcome outcome =
-      run_program({DRUMLIN_TOOLS, "passes", folder.path().string(), "--cell", "0.16"}, {}, folder.path());
+      run_program(tool_words("passes {} --cell 0.16", folder.path().string()), {}, folder.path());
   well(outcome);
   const std::size_t kept = post::read_table(folder / "passes.csv").rows() - 1U;
   EXPECT_GE(kept, 2U);
@@ -244,7 +212,7 @@ TEST_F(BedDriven, GoesTheSameWayOnSeveralRanks) {
 
 // From the data file bed and roller first come to rest again, so that only the way is the same.
 TEST_F(BedDriven, DrivesInLammps) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  SKIP_WITHOUT_LAMMPS(true);
   const Scratch here, there;
   well(drive(here, {{"passes", "1"}}));
   well(drive(there, {{"passes", "1"}}, 1, "in.drive.lammps"));
@@ -257,7 +225,7 @@ TEST_F(BedDriven, DrivesInLammps) {
 // From one data file, with a contact history that starts at zero in both engines, over 500 steps; the roller
 // has its full speed after the first half of them.
 TEST_F(BedDriven, GoesTheSameWayInBothEnginesOver500Steps) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  SKIP_WITHOUT_LAMMPS(true);
   place("clump.restart", {{"drum", "clump"}});
   for (const auto &[start, rotation] : {std::pair{"roller.restart", "driven"},
                                         {"roller.restart", "towed"},
@@ -267,13 +235,12 @@ TEST_F(BedDriven, GoesTheSameWayInBothEnginesOver500Steps) {
     const Scratch here, there;
     const std::string fresh = (here / "fresh.restart").string();
     well(run_deck(test_deck("bed_from_data.in"),
-                  {{"start", file}, {"fresh", fresh}, {"here", bed_folder().string()}}, here.path()));
-    const Variables variables = {{"omega", "628.3185307179587"}, {"steps_per_cycle", "500"},
-                                 {"samples_per_cycle", "50"},    {"ramp", "0.005"},
-                                 {"time_limit", "1e-3"},         {"balance", "1e30"},
-                                 {"drum_rotation", rotation}};
+                  given("start {}, fresh {}, here {}", file, fresh, bed_folder().string()), here.path()));
+    const Variables variables = given("omega 628.3185307179587, steps_per_cycle 500, samples_per_cycle 50, "
+                                      "ramp 0.005, time_limit 1e-3, balance 1e30, drum_rotation {}",
+                                      rotation);
     well(drive(here, with({{"start", fresh}}, variables)));
-    well(drive(there, with({{"start", file}, {"rest", "0"}}, variables), 1, "in.drive.lammps"));
+    well(drive(there, with(given("start {}, rest 0", file), variables), 1, "in.drive.lammps"));
     const post::Table a = post::read_table(here / "bed.csv"), b = post::read_table(there / "bed.csv");
     expect_same(a, b, 51, 1e-9, what);
     EXPECT_GT(a.numbers("s").back() - a.numbers("s").front(), 0.01) << what;
@@ -286,10 +253,9 @@ TEST_F(BedDrivenByAClump, RollsToTheEndsOfItsWayAndItsWorkBalances) {
   for (const char *rotation : {"driven", "towed", "none"}) {
     const Scratch folder;
     const bool driven = std::string(rotation) == "driven";
-    const Variables way = {
-        {"drum_rotation", rotation}, {"passes", "1"}, {"margin", "0.01"}, {"steps_per_cycle", "2000"}};
+    const Variables way = given("drum_rotation {}, passes 1, margin 0.01, steps_per_cycle 2000", rotation);
     // The others need no cells of a way: at twice the speed they take half as many steps.
-    well(drive(folder, driven ? way : with(way, {{"speed", "4"}, {"ramp", "0.025"}})));
+    well(drive(folder, driven ? way : with(way, given("speed 4, ramp 0.025"))));
     const std::map<long, post::StepDump> dumps = post::dumped_steps(folder / "dump");
     ASSERT_EQ(dumps.size(), 2U);
     const fs::path first = dumps.begin()->second.balls, last = dumps.rbegin()->second.balls;
@@ -319,7 +285,7 @@ TEST_F(BedDrivenByAClump, RollsToTheEndsOfItsWayAndItsWorkBalances) {
     }
     EXPECT_LT(std::fabs(unbalanced(post::read_table(folder / "bed.csv"))), 1e-3) << rotation;
     if (!driven) continue;
-    well(run_program({DRUMLIN_TOOLS, "passes", folder.path().string(), "--cell", "0.17"}, {}, folder.path()));
+    well(run_program(tool_words("passes {} --cell 0.17", folder.path().string()), {}, folder.path()));
     EXPECT_EQ(post::read_table(folder / "passes.csv").rows(), 2U);
   }
 }
@@ -328,8 +294,8 @@ TEST_F(BedDrivenByAClump, ContinuesWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
   for (const int ranks : {1, 2}) {
     const Scratch stayed, left;
     well(drive(stayed, {{"passes", "1"}}, ranks));
-    well(drive(left, {{"passes", "1"}, {"time_limit", "1e-3"}}, ranks));
-    well(drive(left, {{"passes", "1"}, {"start", (left / "stopped.restart").string()}}, ranks));
+    well(drive(left, given("passes 1, time_limit 1e-3"), ranks));
+    well(drive(left, given("passes 1, start {}", (left / "stopped.restart").string()), ranks));
     for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
       EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file << ", ranks " << ranks;
   }
@@ -337,7 +303,7 @@ TEST_F(BedDrivenByAClump, ContinuesWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
 
 TEST_F(BedDrivenByAClump, GoesTheSameWayOnTwoRanksAndInLammps) {
   for (const char *rotation : {"driven", "towed"}) {
-    const Variables a_cycle = {{"time_limit", "1e-3"}, {"drum_rotation", rotation}, {"ramp", "0.01"}};
+    const Variables a_cycle = given("time_limit 1e-3, drum_rotation {}, ramp 0.01", rotation);
     const Scratch one, two;
     well(drive(one, a_cycle));
     well(drive(two, a_cycle, 2));
@@ -345,7 +311,7 @@ TEST_F(BedDrivenByAClump, GoesTheSameWayOnTwoRanksAndInLammps) {
     expect_same(alone, post::read_table(two / "bed.csv"), 51, 1e-7, rotation);
     if (!post::has_lammps()) continue;
     const Scratch there;
-    well(drive(there, with(a_cycle, {{"rest", "0"}, {"balance", "1e30"}}), 1, "in.drive.lammps"));
+    well(drive(there, with(a_cycle, given("rest 0, balance 1e30")), 1, "in.drive.lammps"));
     const post::Table other = post::read_table(there / "bed.csv");
     EXPECT_EQ(alone.header(), other.header());
     EXPECT_EQ(alone.numbers("s"), other.numbers("s"));
@@ -364,8 +330,8 @@ TEST_F(BedDriven, DrivesAClumpOfEarlierFilesWithoutRotation) {
   std::ofstream(earlier / "bed/drum.clump") << drum.replace(drum.find(axle), axle.size(), top);
   place("earlier.restart", {{"drum", "clump"}}, earlier / "bed");
   const Scratch folder;
-  const Variables variables = {{"start", (scratch().path() / "earlier.restart").string()},
-                               {"time_limit", "1e-3"}};
+  const Variables variables =
+      given("start {}, time_limit 1e-3", (scratch().path() / "earlier.restart").string());
   EXPECT_TRUE(fails_with(drive(folder, variables),
                          "ERROR: drumlin/check: variable drum_rotation is 'driven'; allowed: none"));
   EXPECT_FALSE(fs::exists(folder / "bed.csv"));
@@ -391,14 +357,11 @@ TEST_F(BedDriven, RefusesAWayThatItCannotDrive) {
           "variable dumps_per_cycle is '10'; allowed: a finite number at most 0, ");
   refused({{"cycles", "3"}},
           "ERROR: drumlin/variables: -var cycles is '3', a variable that this deck does not have; allowed: ");
-  EXPECT_TRUE(
-      fails_with(run_deck(bed_folder() / "in.place",
-                          {{"bed", (scratch() / "soil.restart").string()},
-                           {"start", "x.restart"},
-                           {"place", "0.41"},
-                           {"r2", "0.1"}},
-                          folder.path()),
-                 "ERROR: drumlin/check: variable place is '0.41'; allowed: a finite number below 0.4, "));
+  EXPECT_TRUE(fails_with(
+      run_deck(bed_folder() / "in.place",
+               given("bed {}, start x.restart, place 0.41, r2 0.1", (scratch() / "soil.restart").string()),
+               folder.path()),
+      "ERROR: drumlin/check: variable place is '0.41'; allowed: a finite number below 0.4, "));
 }
 
 } // namespace

@@ -1,11 +1,7 @@
 // The dumps of a bed on which a drum falls: the engine's files, and those that ./drumlin vtk makes from them
 // for ParaView.
-#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
-
 #include "bed/dump_readers.h"
-
-#include <gtest/gtest.h>
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -15,17 +11,6 @@
 #include <vtkSmartPointer.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <memory>
-#include <regex>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -41,11 +26,10 @@ class Dumps : public ::testing::Test {
 protected:
   static void SetUpTestSuite() {
     scratch = std::make_unique<Scratch>();
-    well(run_program({DRUMLIN_TOOLS, "bed", "--balls", "150", "--width", "0.6", "--out", "balls.data"}, {},
-                     scratch->path()));
+    well(run_program(tool_words("bed --balls 150 --width 0.6 --out balls.data"), {}, scratch->path()));
     for (const std::string stepping : {"stock", "second"}) {
       well(run_deck(decks() / "in.settle",
-                    {{"case", "loose"}, {"balls", "balls.data"}, {"bed", stepping}, {"stepping", stepping}},
+                    given("case loose, balls balls.data, bed {}, stepping {}", stepping, stepping),
                     scratch->path()));
     }
   }
@@ -58,7 +42,7 @@ protected:
     for (const auto &[name, value] : more)
       if (name == "stepping") stepping = value;
     const Variables variables =
-        with(more, {{"bed", (scratch->path() / stepping).string()}, {"here", decks().string()}});
+        with(more, given("bed {}, here {}", (scratch->path() / stepping).string(), decks().string()));
     well(run_deck(test_deck("dumps.in"), variables, folder.path(), ranks));
   }
 
@@ -165,7 +149,7 @@ TEST_F(Dumps, HoldEveryBallAndEveryContactOnceOnTwoRanks) {
 
 TEST_F(Dumps, OfAGroupAreTheContactsOfItsBalls) {
   const Scratch folder;
-  run(folder, {{"some", "1"}, {"dump_every", "250"}});
+  run(folder, given("some 1, dump_every 250"));
   for (const long step : steps) {
     const auto found = post::read_ball_dump(folder.path() / "dump" / step_file("balls", step));
     const post::BedContacts all = contacts_of(folder, step, found);
@@ -186,7 +170,7 @@ TEST_F(Dumps, OfAGroupAreTheContactsOfItsBalls) {
 TEST_F(Dumps, DoNotDisturbTheRun) {
   for (const char *transition : {"A", "B"}) {
     const Scratch with, without;
-    run(with, {{"transition", transition}, {"dump_every", "10"}});
+    run(with, given("transition {}, dump_every 10", transition));
     run(without, {{"transition", transition}});
     EXPECT_FALSE(fs::exists(without / "dump"));
     EXPECT_EQ(read_text(with / "state.dump"), read_text(without / "state.dump")) << transition;
@@ -205,7 +189,7 @@ TEST_F(Dumps, OfAnEarlierRunAreRemoved) {
   fs::create_directory(folder / "dump");
   for (const char *name : {"balls_7.vtp", "contacts_7.dump", "balls_boundingBox_7.vtr"})
     std::ofstream(folder / "dump" / name) << "old";
-  run(folder, {{"dump_every", "50"}, {"steps", "50"}});
+  run(folder, given("dump_every 50, steps 50"));
   std::set<std::string> names;
   for (const auto &entry : fs::directory_iterator(folder / "dump"))
     names.insert(entry.path().filename().string());
@@ -266,19 +250,15 @@ double unexplained(const Scratch &folder, long begin, long end, bool with_walls,
 // The forces are the step's own, friction and walls included, with light dashpots and with heavy ones, which
 // are solved for together (without friction: heavy dashpots across would be unstable).
 TEST_F(Dumps, ForcesOfContactsAreThoseThatActedOnRanksOneAndTwo) {
-  const Variables stock = {{"transition", "B"}}, A = {{"transition", "A"}, {"stepping", "second"}},
-                  B = {{"transition", "B"}, {"stepping", "second"}},
-                  heavy = {{"transition", "B"},
-                           {"stepping", "second"},
-                           {"D", "5"},
-                           {"friction", "0"},
-                           {"guard", "off"}};
+  const Variables stock = {{"transition", "B"}}, A = given("transition A, stepping second"),
+                  B = given("transition B, stepping second"),
+                  heavy = given("transition B, stepping second, D 5, friction 0, guard off");
   for (const Variables &scene : {stock, A, B, heavy})
     for (const int ranks : {1, 2}) {
       const Scratch folder;
       // Heavy dashpots: long enough for a ball to be moved out of a contact that barely overlaps.
       const long last = scene == heavy ? 900 : 450;
-      const Variables variables = with(scene, {{"dump_every", "1"}, {"steps", std::to_string(last)}});
+      const Variables variables = with(scene, given("dump_every 1, steps {}", last));
       run(folder, variables, ranks);
       EXPECT_LT(
           unexplained(folder, 100, last, true,
@@ -307,11 +287,8 @@ TEST_F(Dumps, TheEnginesOwnComputeGetsTheForcesOfTheStep) {
   };
   for (const char *transition : {"A", "B"}) {
     const Scratch smooth, rough;
-    const Variables often = {{"transition", transition},
-                             {"stepping", "second"},
-                             {"own", "1"},
-                             {"dump_every", "1"},
-                             {"steps", "450"}};
+    const Variables often =
+        given("transition {}, stepping second, own 1, dump_every 1, steps 450", transition);
     const Variables slippery = with(often, {{"friction", "0"}});
     run(smooth, slippery);
     EXPECT_LT(unexplained(smooth, 250, 450, false, own(smooth)), 5e-3) << transition;

@@ -1,27 +1,22 @@
-// The files of a run: earlier results stay until a new run has passed its first steps, two runs do not mix,
-// signals and full disks are errors, and nothing but regular files is replaced.
-#include "tests/support/checks.h"
+// Runs and their files: earlier ones, and what the tools find in them.
+#include "tests/support/chain_record.h"
 #include "tests/support/engine_runs.h"
-#include "tests/support/host_deck.h"
-
+#include "identify/identified_record.h"
+#include "map/orbits.h"
+#include "meter/values.h"
 #include "report/report.h"
 #include "runs/parameter_file.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <atomic>
-#include <chrono>
-#include <csignal>
-#include <fstream>
-#include <functional>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
-#include <thread>
 #include <unistd.h>
 
 namespace drumlin::test {
 namespace {
+
+// The files of a run: earlier results stay until a new run has passed its first steps, two runs do not mix,
+// signals and full disks are errors, and nothing but regular files is replaced.
+namespace earlier_runs {
 
 namespace fs = std::filesystem;
 
@@ -36,14 +31,7 @@ std::map<std::string, std::string> texts(const fs::path &folder) {
 }
 
 /// A force that drives the drum through the soil: the guard ends the run at step 100.
-const Variables too_strong = {{"Fw", "1e10"}, {"cycles", "1"}};
-
-int errors_in(const std::string &output) {
-  int errors = 0;
-  for (std::size_t at = output.find("ERROR"); at != std::string::npos; at = output.find("ERROR", at + 1))
-    ++errors;
-  return errors;
-}
+const Variables too_strong = given("Fw 1e10, cycles 1");
 
 TEST(EarlierRuns, OfAnEarlierRunStayWhenTheFirstStepFailsOnRanksOneAndTwo) {
   for (const int ranks : {1, 2}) {
@@ -102,9 +90,8 @@ void run_until_a_signal(Ended &run) {
 }
 
 TEST(EarlierRuns, OfARunAreItsOwnUntilASignalEndsItOnRanksOneAndTwo) {
-  std::vector<Ended> runs = {
-      {"in.chain", {{"cycles", "1000000"}}, 2, {}, {}},
-      {"in.impact", {{"contacts", "1000"}, {"steps_per_contact", "1000000"}}, 1, {}, {}}};
+  std::vector<Ended> runs = {{"in.chain", {{"cycles", "1000000"}}, 2, {}, {}},
+                             {"in.impact", given("contacts 1000, steps_per_contact 1000000"), 1, {}, {}}};
   if (post::has_lammps()) runs.push_back({"in.chain.lammps", {{"cycles", "1000000"}}, 1, {}, {}});
   const WaitForRanks wait(2); // on a busy machine the default can be too short
   std::vector<std::thread> side_by_side;
@@ -119,12 +106,12 @@ TEST(EarlierRuns, OfARunAreItsOwnUntilASignalEndsItOnRanksOneAndTwo) {
   for (const Ended &run : runs) {
     EXPECT_EQ(run.second.status, 1) << run.deck;
     EXPECT_TRUE(run.second.says(", into which another run writes; allowed: ")) << run.second.output;
-    EXPECT_EQ(errors_in(run.second.output), 1) << run.second.output;
+    EXPECT_EQ(errors_in(run.second.output), 1U) << run.second.output;
     EXPECT_TRUE(run.first.timed_out) << run.deck;
     EXPECT_EQ(run.first.status, 1) << run.deck;
     if (run.ranks > 1 && !mpirun_hands_on) continue;
     EXPECT_TRUE(run.first.says("ERROR: drumlin/run: stopped by a signal at step ")) << run.first.output;
-    EXPECT_EQ(errors_in(run.first.output), 1) << run.first.output;
+    EXPECT_EQ(errors_in(run.first.output), 1U) << run.first.output;
   }
 }
 
@@ -154,9 +141,9 @@ TEST(EarlierRuns, ReplaceRegularFilesOnly) {
     EXPECT_EQ(fs::symlink_status(node).type(), type) << kind;
 
     std::ofstream(folder / "balls.data") << "balls\n\n0 atoms\n";
-    const Outcome settle = run_deck(chain_deck("../bed/in.settle"),
-                                    {{"balls", (folder / "balls.data").string()}, {"bed", node.string()}},
-                                    folder.path(), 1, 10.0);
+    const Outcome settle = run_deck(
+        chain_deck("../bed/in.settle"),
+        given("balls {}, bed {}", (folder / "balls.data").string(), node.string()), folder.path(), 1, 10.0);
     EXPECT_EQ(settle.status, 1) << kind;
     EXPECT_TRUE(settle.says("variable ba") || settle.says("variable bed is ")) << kind << settle.output;
     EXPECT_EQ(fs::symlink_status(node).type(), type) << kind;
@@ -213,7 +200,7 @@ TEST(EndOfARun, OfAChainIsToldApartOnRanksOneAndTwo) {
       well(run({{"cycles", "1"}}, {}));
       EXPECT_EQ(end_of(folder.path()), "yes") << deck << ranks;
       // The guard ends the run when the first steps, after which no earlier results come back, are over.
-      const Outcome guarded = run({{"cycles", "1"}, {"Fw", "3e8"}, {"steps_per_cycle", "20000"}}, {});
+      const Outcome guarded = run(given("cycles 1, Fw 3e8, steps_per_cycle 20000"), {});
       EXPECT_EQ(guarded.status, 1) << guarded.output;
       EXPECT_EQ(end_of(folder.path()).rfind("fix guard: overlap of balls 1 and 2 is '", 0), 0u)
           << deck << ranks << end_of(folder.path()) << guarded.output;
@@ -249,9 +236,9 @@ TEST(EndOfARun, OfTheEnginesOwnCommandIsNoted) {
 // A sample whose balls are too soft for the second load: the loads before are there.
 TEST(EndOfARun, OfATestOfSoilIsInItsReport) {
   const Scratch folder, out;
-  const Outcome stopped = run_deck(
-      chain_deck("../soil/in.oedometer"),
-      {{"sample", "random"}, {"columns", "4"}, {"layers", "4"}, {"loads", "25 50 2e4"}}, folder.path());
+  const Outcome stopped =
+      run_deck(chain_deck("../soil/in.oedometer"),
+               given("sample random, columns 4, layers 4, loads 25 50 2e4"), folder.path());
   ASSERT_EQ(stopped.status, 1) << stopped.output;
   ASSERT_TRUE(stopped.says("ERROR: fix guard: overlap of ")) << stopped.output;
   EXPECT_EQ(end_of(folder.path()).rfind("fix guard: overlap of ", 0), 0u) << end_of(folder.path());
@@ -289,13 +276,12 @@ TEST(EarlierRuns, AndInputsAreNotReplaced) {
     }
   }
   // The data file of in.settle has the name of the balls from which it starts.
-  run_program({DRUMLIN_TOOLS, "bed", "--balls", "20", "--width", "0.5", "--out", "bed.data"}, {},
-              folder.path());
+  run_program(tool_words("bed --balls 20 --width 0.5 --out bed.data"), {}, folder.path());
   const std::string balls = read_text(folder / "bed.data");
   for (const char *deck : {"../bed/in.settle", "../bed/in.settle.lammps"}) {
     if (std::string(deck) == "../bed/in.settle.lammps" && !post::has_lammps()) continue;
     EXPECT_TRUE(
-        fails_with(run_deck(chain_deck(deck), {{"balls", "bed.data"}, {"bed", "bed"}}, folder.path()),
+        fails_with(run_deck(chain_deck(deck), given("balls bed.data, bed bed"), folder.path()),
                    "file is 'bed.data'; allowed: another file than 'bed.data', which the run has read"));
     EXPECT_EQ(read_text(folder / "bed.data"), balls);
   }
@@ -314,7 +300,7 @@ TEST(EarlierRuns, OnAFullDiskAreAnError) {
       on_small_disk(folder.path(), "LD_PRELOAD=$DRUMLIN_PRELOAD exec liggghts -in \"$DECKS/in.chain\" -log "
                                    "none -var cycles 120 -var out small");
   EXPECT_TRUE(fails_with(chain, "chain.csv', which cannot be written; allowed: a file on a disk with room"));
-  EXPECT_EQ(errors_in(chain.output), 1) << chain.output;
+  EXPECT_EQ(errors_in(chain.output), 1U) << chain.output;
 }
 
 TEST(EarlierRuns, OnAFullDiskAnEarlierRestartFileStaysWhole) {
@@ -341,6 +327,155 @@ TEST(EarlierRuns, OnAFullDiskAnEarlierRestartFileStaysWhole) {
     EXPECT_TRUE(printed(both, "; allowed: a file on a disk with room"));
   }
 }
+
+} // namespace earlier_runs
+
+// What the tools find in runs of the decks: meter values, stiffness and damping, boundaries of regimes.
+namespace tools_on_runs {
+
+// Meter values of the chain in the engine: from the sums over every step, against those of the exact
+// solution.
+namespace meter {
+
+TEST(MeterOfDecks, CmvFromEveryStep) {
+  struct Known {
+    const char *name;
+    double cmv; // reference value, from Fourier integrals over each phase of the exact solution
+  };
+  for (const Known &known : {Known{"II", 155.948}, Known{"III", 105.730}, Known{"IV", 247.175}}) {
+    const Scratch scratch;
+    const Outcome outcome = run_deck(
+        chain_deck("in.chain"), given("case {}, cycles 120, out {}", known.name, (scratch / "run").string()),
+        scratch.path());
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    for (const char *name : {"run", "run/cycles.csv"}) {
+      const post::MeterRecord record = post::meter_cycles(post::read_record(scratch / name));
+      EXPECT_EQ(record.source, post::HarmonicSource::every_step);
+      EXPECT_EQ(record.cycles.size(), 120U);
+      const post::MeterWindow window = post::meter_windows(record, {}).back();
+      EXPECT_NEAR(*window.cmv / known.cmv, 1.0, 1e-3) << known.name;
+      EXPECT_EQ(window.mode, post::OperatingMode::partial_uplift);
+      EXPECT_LT(*window.rmv, 0.01);
+      EXPECT_GT(*window.energy, 0.0);
+    }
+    // The samples alone, 200 per cycle, are within their own bound.
+    const post::MeterWindow sampled =
+        post::meter_windows(post::meter_cycles(post::read_record(scratch / "run/chain.csv")), {}).back();
+    EXPECT_LT(std::abs(*sampled.cmv - known.cmv), sampled.cmv_bound) << known.name;
+  }
+}
+
+} // namespace meter
+
+// Stiffness and damping found from runs of the engine at the decks' default steps.
+namespace identify {
+
+TEST(Identify, EightChainRuns) {
+  for (const char *name : post::table1_cases)
+    for (const post::Transition transition : {post::Transition::A, post::Transition::B}) {
+      SCOPED_TRACE(std::string(name) + post::transition_name(transition));
+      const post::ChainParameters p = post::table1_case(name, transition);
+      const ChainRun run = run_chain(name, transition, 2000, 200, {{"stepping", "second"}});
+      const post::Record record = record_of(p, run.history);
+      for (const bool accelerations_only : {false, true}) {
+        post::RecordSetting setting;
+        setting.accelerations_only = accelerations_only;
+        const post::LawEstimate law = post::identify_record(record, setting).whole.law;
+        EXPECT_NEAR(law.k.mean, p.k, 1e-3 * p.k);
+        EXPECT_NEAR(law.c.mean, p.damping(), 3e-3 * p.damping());
+        EXPECT_NEAR(law.D.mean, p.D, 3e-3 * p.D);
+      }
+    }
+}
+
+} // namespace identify
+
+// Boundaries of regimes that are computed in closed form and from orbits, against runs of the chain in the
+// engine on both sides of them, as near as the error of these runs permits.
+namespace boundaries {
+
+using namespace post;
+
+// A run with the deck's default step, 2000 per cycle.
+struct Run {
+  ChainHistory history; ///< one sample per cycle
+  CycleColumns cycles;
+  std::vector<ContactEvent> events;
+};
+
+Run run(const ChainParameters &p, int cycles) {
+  const Scratch scratch;
+  const Outcome outcome = run_deck(chain_deck("in.chain"),
+                                   given("case II, k {}, D {}, cycles {}, samples_per_cycle 1, out {}", p.k,
+                                         p.D, cycles, (scratch / "run").string()),
+                                   scratch.path());
+  if (!outcome.ok()) throw std::runtime_error("in.chain failed:\n" + outcome.output);
+  return {read_chain(scratch / "run/chain.csv"), read_cycle_columns(scratch / "run/cycles.csv"),
+          read_events(scratch / "run/events.csv")};
+}
+
+ChainParameters chain(double k, double D) {
+  ChainParameters p = table1_case("II", Transition::B);
+  p.k = k;
+  p.D = D;
+  return p;
+}
+
+TEST(BoundariesOfDecks, ContactIsLostWhereItIsInClosedForm) {
+  constexpr int cycles = 80; // until the frame has come to its steady motion
+  const ChainFamily family = [](double k) { return chain(k, 0.5); };
+  const auto onset = locate_contact_loss(family, 3e6, 20e6);
+  ASSERT_TRUE(onset);
+  // The error of the engine is that of the least force in the last cycle, as the relative change of k that
+  // causes it.
+  const double below = 0.99;
+  const double exact = contact_margin(family(below * onset->value));
+  const double error =
+      std::fabs(run(family(below * onset->value), cycles).cycles.at("F_contact_min").back() - exact) /
+      (exact / (1.0 - below));
+  EXPECT_LT(error, 1e-5);
+  for (const double side : {-1.0, 1.0}) {
+    const ChainParameters p = family(onset->value * (1.0 + side * std::max(4.0 * error, 1e-6)));
+    const std::vector<ContactEvent> events = run(p, cycles).events;
+    const auto late = std::count_if(events.begin(), events.end(), [&](const ContactEvent &event) {
+      return !event.make && event.time > (cycles - 10) * p.period();
+    });
+    EXPECT_EQ(late, side > 0.0 ? 10 : 0) << side << ", error " << error;
+  }
+}
+
+// The ratio of successive changes of v_drum at the start of a cycle is the multiplier of the orbit that they
+// die away to; beyond the boundary they persist.
+TEST(BoundariesOfDecks, ThePeriodDoublesWhereAMultiplierPassesMinusOne) {
+  const ChainFamily family = [](double k) { return chain(k, 0.1); };
+  constexpr double from = 15e6;
+  const ChainSolver solver(family(from));
+  ChainMotion motion = solver.start();
+  for (int cycle = 0; cycle < 400; ++cycle)
+    solver.finish_cycle(motion);
+  const auto start = find_orbit(solver, motion.state, 1);
+  ASSERT_TRUE(start);
+  const auto doubling = locate_doubling(family, from, 25e6, *start);
+  ASSERT_TRUE(doubling);
+  constexpr std::size_t cycles = 200;
+  const auto changes = [&](double k) {
+    const std::vector<double> v = run(family(k), cycles).history.v_drum;
+    return std::vector<double>{v[cycles - 2] - v[cycles - 3], v[cycles - 1] - v[cycles - 2],
+                               v[cycles] - v[cycles - 1]};
+  };
+  const double below = 0.95 * doubling->value;
+  const std::vector<double> dying = changes(below);
+  EXPECT_NEAR(dying[2] / dying[1],
+              continue_orbit(family, from, below, 8, *start).back().orbit.multipliers[0].real(),
+              3e-4); // 4e-4 of k
+  const std::vector<double> lasting = changes(1.02 * doubling->value);
+  EXPECT_NEAR(lasting[2] / lasting[1], -1.0, 1e-3);
+  EXPECT_GT(std::fabs(lasting[2]), 100.0 * std::fabs(dying[2]));
+}
+
+} // namespace boundaries
+
+} // namespace tools_on_runs
 
 } // namespace
 } // namespace drumlin::test

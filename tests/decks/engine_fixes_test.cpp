@@ -2,18 +2,7 @@
 // move. The oracle is mostly the same scene as another observer sees it: inside a deforming box instead of
 // across its side, with a ball that had its size from the start, or on a moved ball of another mass, which
 // must not matter.
-#include "tests/support/checks.h"
-#include "tests/support/engine_and_scheme.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
+#include "tests/support/engine_runs.h"
 
 namespace drumlin::test {
 namespace {
@@ -134,13 +123,13 @@ const std::vector<Deforming> &deforming() {
        {0.5, 0.47, 0.46},
        {0, 0, 0.5},
        "z erate -0.5",
-       {{"normal", "hertz"}, {"damping", "ratio"}, {"c", "0.3"}, {"mu", "0.5"}, {"ct", "20"}}},
+       given("normal hertz, damping ratio, c 0.3, mu 0.5, ct 20")},
       {"along x and y, a corner",
        {0.535, 0.536, 0.5},
        {0.464, 0.465, 0.5},
        {0.5, 0.5, 0},
        "x erate -0.5 y erate -0.25",
-       {{"c", "300"}, {"mu", "0.3"}}}};
+       given("c 300, mu 0.3")}};
   return all;
 }
 const std::vector<Deforming> &sheared() {
@@ -149,13 +138,13 @@ const std::vector<Deforming> &sheared() {
                                               {0.464, 0.464, 0.5},
                                               {0, 0.5, 0},
                                               "xy erate -2",
-                                              {{"c", "600"}, {"mu", "0.5"}}},
+                                              given("c 600, mu 0.5")},
                                              {"yz, through the side",
                                               {0.5, 0.536, 0.535},
                                               {0.5, 0.464, 0.464},
                                               {0, 0, 0.49},
                                               "yz erate -2",
-                                              {{"c", "300"}, {"mu", "0.3"}},
+                                              given("c 300, mu 0.3"),
                                               {0, 0, 4}}};
   return all;
 }
@@ -173,15 +162,10 @@ Variables variables_of(const Deforming &scene, const Vector &shift) {
     at[n] = words(wrapped.x);
     velocity[n] = std::string("velocity ") + (n == 0 ? "one" : "two") + " set " + words(v) + " units box";
   }
-  Variables all = {{"box", scene.sheared() ? "prism 0 1 0 1 0 1 0 0 0" : "block 0 1 0 1 0 1"},
-                   {"one", at[0]},
-                   {"two", at[1]},
-                   {"first", velocity[0]},
-                   {"second", velocity[1]},
-                   {"dt", "2e-6"},
-                   {"third", "fix deform all deform 1 " + scene.deform + " remap v units box"},
-                   {"steps", "15000"},
-                   {"every", "15000"}};
+  Variables all =
+      given("box {}, one {}, two {}, first {}, second {}, dt 2e-6, third {}, steps 15000, every 15000",
+            scene.sheared() ? "prism 0 1 0 1 0 1 0 0 0" : "block 0 1 0 1 0 1", at[0], at[1], velocity[0],
+            velocity[1], "fix deform all deform 1 " + scene.deform + " remap v units box");
   all.insert(all.end(), scene.law.begin(), scene.law.end());
   return all;
 }
@@ -235,8 +219,8 @@ TEST_P(EngineFixes, ContactAcrossADeformingSideIsThatInside) {
 TEST_P(EngineFixes, BondAcrossADeformingSideIsThatInside) {
   for (Deforming scene : deforming()) {
     SCOPED_TRACE(scene.name);
-    scene.law = {{"fourth", "fix bond all bond/spring 1 2 1e5 60 length 0.105"},
-                 {"fifth", "neigh_modify exclude group one two"}};
+    scene.law = given(
+        "fourth fix bond all bond/spring 1 2 1e5 60 length 0.105, fifth neigh_modify exclude group one two");
     const Result across = run_pair(variables_of(scene, scene.shift)),
                  inside = run_pair(variables_of(scene, {}));
     const Vector u = relative_velocity(scene, across), v = relative_velocity(scene, inside);
@@ -246,11 +230,9 @@ TEST_P(EngineFixes, BondAcrossADeformingSideIsThatInside) {
 }
 
 TEST_P(EngineFixes, DrumKeepsItsVelocityThroughADeformingSide) {
-  const Result free = run_pair({{"one", "0.5 0.95 0.5"},
-                                {"two", "0.5 0.5 0.5"},
-                                {"box", "block 0 1 0 1 0 1"},
-                                {"first", "velocity one set 0 4 0 units box"},
-                                {"second", "fix deform all deform 1 y erate -0.5 remap v units box"}});
+  const Result free =
+      run_pair(given("one 0.5 0.95 0.5, two 0.5 0.5 0.5, box block 0 1 0 1 0 1, first velocity one set 0 4 0 "
+                     "units box, second fix deform all deform 1 y erate -0.5 remap v units box"));
   EXPECT_LT(free.ball(1).x[1], 0.5) << "still on the side where it was";
   EXPECT_NEAR(free.v_drum, 4.0, 1e-12);
   EXPECT_NEAR(free.x_drum, 4.0 * 0.03, 1e-3);
@@ -265,13 +247,11 @@ TEST_P(EngineFixes, OtherRemappingsConvergeToTheEnginesScheme) {
       SCOPED_TRACE(std::string(remap) + (across ? ", across" : ", inside"));
       Deforming scene = deforming().front();
       Variables coarse = variables_of(scene, across ? scene.shift : Vector{});
-      coarse.insert(coarse.begin(),
-                    {{"third", std::string("fix deform all deform 1 y erate -0.5 remap ") + remap},
-                     {"dt", "1e-5"},
-                     {"steps", "3000"},
-                     {"every", "3000"}});
+      coarse = with(given("third {}, dt 1e-5, steps 3000, every 3000",
+                          std::string("fix deform all deform 1 y erate -0.5 remap ") + remap),
+                    coarse);
       Variables fine = coarse;
-      fine.insert(fine.begin(), {{"dt", "5e-7"}, {"steps", "60000"}, {"every", "60000"}});
+      fine = with(given("dt 5e-7, steps 60000, every 60000"), fine);
       const Result rough = run_pair(coarse), exact = run_pair_with("stock", fine);
       for (const long id : {1L, 2L})
         EXPECT_NEAR(rough.ball(id).v[1], exact.ball(id).v[1], 2e-3 * 0.05);
@@ -287,11 +267,11 @@ TEST_P(EngineFixes, PartsOfABoxThatDeformAreRefused) {
 
 TEST_P(EngineFixes, GroundOfABoxThatDeformsIsRefused) {
   const Scratch folder;
-  EXPECT_TRUE(fails_with(
-      run("pair", folder,
-          {{"first", "fix deform all deform 1 y erate -0.5 remap v units box"},
-           {"second", "fix ground one boundary/absorb normal 0 1 0 area 1 density 2000 speeds 300 0"}}),
-      "the box is deformed by fix deform"));
+  EXPECT_TRUE(
+      fails_with(run("pair", folder,
+                     given("first fix deform all deform 1 y erate -0.5 remap v units box, second fix ground "
+                           "one boundary/absorb normal 0 1 0 area 1 density 2000 speeds 300 0")),
+                 "the box is deformed by fix deform"));
 }
 
 TEST(EngineFixesInLiggghts, TriclinicBoxIsRefused) {
@@ -303,32 +283,24 @@ TEST(EngineFixesInLiggghts, TriclinicBoxIsRefused) {
 /// A ball that flies along -y onto a ball at rest, and has its size and mass from the start or grows before
 /// the impact.
 Variables flying(bool grows, const Variables &more) {
-  Variables all = {{"one", "0.5 0.8 0.5"},
-                   {"two", "0.5 0.59 0.5"},
-                   {"box", "block 0 1 0 1 0 1"},
-                   {"sides", "f f f"},
-                   {"skin", "0.2"},
-                   {"integrated", "one"},
-                   {"dt", "1e-4"},
-                   {"steps", "2000"},
-                   {"every", "2000"},
-                   {"first", "velocity one set 0 -1 0"},
-                   {"second", "fix hold two freeze"}};
+  Variables all = given(
+      "one 0.5 0.8 0.5, two 0.5 0.59 0.5, box block 0 1 0 1 0 1, sides f f f, skin 0.2, integrated one, dt "
+      "1e-4, steps 2000, every 2000, first velocity one set 0 -1 0, second fix hold two freeze");
   if (grows) {
     constexpr double share = 0.2; // of the radius, at the start
-    all.insert(all.end(), {{"d1", number(share * 0.1)},
-                           {"m1", number(share * share * share)},
-                           {"third", "variable grown equal 0.1*(0.2+0.8*((step<400)*step/400+(step>=400)))"},
-                           {"fourth", "fix grow one adapt 1 atom diameter v_grown"}});
+    all = with(
+        all,
+        given("d1 {}, m1 {}, third variable grown equal 0.1*(0.2+0.8*((step<400)*step/400+(step>=400))), "
+              "fourth fix grow one adapt 1 atom diameter v_grown",
+              share * 0.1, share * share * share));
   }
   all.insert(all.begin(), more.begin(), more.end()); // the first value of a variable holds
   return all;
 }
 
 TEST_P(EngineFixes, GrownBallReboundsAsOneOfItsSize) {
-  for (const Variables &law :
-       {Variables{{"c", "1000"}, {"mu", "0.4"}}, Variables{{"damping", "ratio"}, {"c", "0.3"}},
-        Variables{{"normal", "hertz"}, {"damping", "ratio"}, {"c", "0.5"}, {"E", "1e7"}}}) {
+  for (const Variables &law : {given("c 1000, mu 0.4"), given("damping ratio, c 0.3"),
+                               given("normal hertz, damping ratio, c 0.5, E 1e7")}) {
     const Result grown = run_pair(flying(true, law)), full = run_pair(flying(false, law));
     EXPECT_NEAR(grown.ball(1).v[1], full.ball(1).v[1], 1e-6);
     EXPECT_GT(full.ball(1).v[1], 0.1);
@@ -343,7 +315,7 @@ TEST_P(EngineFixes, GrownBallReboundsAsOneOfItsSize) {
 }
 
 TEST_P(EngineFixes, AccelerationOfAGrownDrumIsThatOfOneOfItsSize) {
-  const Variables in_contact = {{"damping", "ratio"}, {"c", "0.3"}, {"steps", "1110"}, {"every", "1110"}};
+  const Variables in_contact = given("damping ratio, c 0.3, steps 1110, every 1110");
   const Result grown = run_pair(flying(true, in_contact)), full = run_pair(flying(false, in_contact));
   EXPECT_GT(full.a_drum, 100.0);
   EXPECT_NEAR(full.a_drum, full.ball(1).f[1],
@@ -352,21 +324,16 @@ TEST_P(EngineFixes, AccelerationOfAGrownDrumIsThatOfOneOfItsSize) {
 }
 
 TEST_P(EngineFixes, ExcitationOfAGrownDrumIsItsForce) {
-  const Variables excited = {{"fifth", "fix excite one drum/excite amplitude 30 omega 20 direction 0 1 0"},
-                             {"steps", "450"},
-                             {"every", "450"}};
+  const Variables excited =
+      given("fifth fix excite one drum/excite amplitude 30 omega 20 direction 0 1 0, steps 450, every 450");
   const Result grown = run_pair(flying(true, excited)), full = run_pair(flying(false, excited));
   EXPECT_GT(std::fabs(full.ball(1).f[1]), 1.0);
   EXPECT_NEAR(grown.ball(1).f[1], full.ball(1).f[1], 1e-9);
 }
 
 TEST_P(EngineFixes, ClumpOfAGrownBallHasItsMass) {
-  const Variables clump = {{"integrated", "all"},
-                           {"first", "fix gravity one gravity 30 vector 0 1 0"},
-                           {"second", "group both union one two"},
-                           {"fifth", "fix clump both clump"},
-                           {"steps", "450"},
-                           {"every", "450"}};
+  const Variables clump = given("integrated all, first fix gravity one gravity 30 vector 0 1 0, second group "
+                                "both union one two, fifth fix clump both clump, steps 450, every 450");
   const Result grown = run_pair(flying(true, clump)), full = run_pair(flying(false, clump));
   for (const long id : {1L, 2L}) {
     EXPECT_NEAR(full.ball(id).f[1], 15.0, 1e-9);
@@ -381,20 +348,10 @@ struct Moved {
 };
 
 Variables on_moved(const Moved &scene, double mass, double dt = 1e-4, int steps = 500) {
-  return with(scene.more, {{"one", "0.5 0.5 0.5"},
-                           {"two", "0.5 0.59999 0.5"},
-                           {"box", "block 0 1 0 1 0 1"},
-                           {"sides", "f f f"},
-                           {"m1", number(mass)},
-                           {"c", "1000"},
-                           {"mu", "0.5"},
-                           {"ct", "20"},
-                           {"integrated", "two"},
-                           {"first", "fix gravity two gravity 9.81 vector 0 -1 0"},
-                           {"second", scene.move},
-                           {"dt", number(dt)},
-                           {"steps", std::to_string(steps)},
-                           {"every", std::to_string(steps)}});
+  return with(scene.more, given("one 0.5 0.5 0.5, two 0.5 0.59999 0.5, box block 0 1 0 1 0 1, sides f f f, "
+                                "m1 {}, c 1000, mu 0.5, ct 20, integrated two, first fix gravity two gravity "
+                                "9.81 vector 0 -1 0, second {}, dt {}, steps {}, every {}",
+                                mass, scene.move, dt, steps, steps));
 }
 
 const std::vector<Moved> &moved() {
@@ -403,18 +360,16 @@ const std::vector<Moved> &moved() {
       {"linear", "fix move one move linear 0.02 0.05 0 units box"},
       {"not integrated", "print none"},
       {"rotate", "fix move one move rotate 0.49 0.5 0.5 0 0 1 0.4 units box"},
-      {"variable",
-       "variable speed equal 0.06*cos(30*step*dt)",
-       {{"third", "variable place equal 0.002*sin(30*step*dt)"},
-        {"fourth", "fix move one move variable NULL v_place NULL NULL v_speed NULL units box"}}},
+      {"variable", "variable speed equal 0.06*cos(30*step*dt)",
+       given("third variable place equal 0.002*sin(30*step*dt), fourth fix move one move variable NULL "
+             "v_place NULL NULL v_speed NULL units box")},
       {"variable speed",
        "variable speed equal 0.06*cos(30*step*dt)",
        {{"third", "fix move one move variable NULL NULL NULL NULL v_speed NULL units box"}}},
       {"in a clump", "fix move one move wiggle 0 0.002 0 0.2 units box", {{"third", "fix clump one clump"}}},
-      {"bond",
-       "fix move one move wiggle 0 0.002 0 0.2 units box",
-       {{"third", "fix bond all bond/spring 1 2 1e5 900 length 0.1"},
-        {"fourth", "neigh_modify exclude group one two"}}},
+      {"bond", "fix move one move wiggle 0 0.002 0 0.2 units box",
+       given("third fix bond all bond/spring 1 2 1e5 900 length 0.1, fourth neigh_modify exclude group one "
+             "two")},
   };
   return all;
 }
@@ -434,13 +389,8 @@ TEST_P(EngineFixes, MassOfAMovedBallDoesNotMatter) {
 // Both balls have infinite mass for the scheme: the force of the law with their positions and velocities.
 TEST_P(EngineFixes, ForceOnAMovedBallIsThatOfTheLaw) {
   for (const double c : {100.0, 3e4}) {
-    const Moved scene{"between",
-                      "fix move one move wiggle 0 0.002 0 0.2 units box",
-                      {{"c", number(c)},
-                       {"mu", "0"},
-                       {"two", "0.5 0.5995 0.5"},
-                       {"first", "group nobody id 3"},
-                       {"integrated", "nobody"}}};
+    const Moved scene{"between", "fix move one move wiggle 0 0.002 0 0.2 units box",
+                      given("c {}, mu 0, two 0.5 0.5995 0.5, first group nobody id 3, integrated nobody", c)};
     const Result result = run_pair(on_moved(scene, 0.01, 1e-4, 50));
     const Ball &one = result.ball(1), &two = result.ball(2);
     const double force = 1e6 * (0.1 - (two.x[1] - one.x[1])) + c * (one.v[1] - two.v[1]);
@@ -457,9 +407,8 @@ TEST_P(EngineFixes, ForceOfAWallOnAMovedBallIsThatOfTheLaw) {
                                  "primitive type 1 yplane 0.4505 transition B damping coefficient stepping " +
                                      stepping;
   for (const double c : {100.0, 3e4}) {
-    const Moved scene{"on a wall",
-                      "fix move one move wiggle 0 -0.002 0 0.2 units box",
-                      {{"c", number(c)}, {"two", "0.5 0.7 0.5"}, {"first", wall}}};
+    const Moved scene{"on a wall", "fix move one move wiggle 0 -0.002 0 0.2 units box",
+                      given("c {}, two 0.5 0.7 0.5, first {}", c, wall)};
     const Ball one = run_pair(on_moved(scene, 0.01, 1e-4, 50)).ball(1);
     const double force = 1e6 * (0.4505 + 0.05 - one.x[1]) - c * one.v[1];
     EXPECT_GT(force, 500.0);
@@ -498,9 +447,8 @@ TEST_P(EngineFixes, BallOnAWigglingOneFollowsIt) {
     if (c > 1000.0 && !second) continue; // unstable
     // The engine gives the ball below its velocity in the first step only.
     const Moved wiggle{
-        "wiggle",
-        "fix move one move wiggle 0 0.002 0 0.2 units box",
-        {{"third", "velocity all set 0 " + number(0.002 * 10 * pi) + " 0 units box"}, {"c", number(c)}}};
+        "wiggle", "fix move one move wiggle 0 0.002 0 0.2 units box",
+        given("third {}, c {}", "velocity all set 0 " + number(0.002 * 10 * pi) + " 0 units box", c)};
     std::vector<double> errors;
     for (const int steps : {100, 400}) {
       const double end = 0.01;
@@ -517,7 +465,7 @@ TEST_P(EngineFixes, BallOnAWigglingOneFollowsIt) {
 // The scene in a frame that moves with the ball below.
 TEST_P(EngineFixes, BallOnOneThatMovesIsThatOnOneAtRest) {
   for (const char *damping : {"1000", "100"}) {
-    const Variables falls = {{"c", damping}, {"two", "0.5 0.6005 0.5"}, {"mu", "0"}};
+    const Variables falls = given("c {}, two 0.5 0.6005 0.5, mu 0", damping);
     Moved rests{"rests", "velocity two set 0 -0.5 0 units box", falls};
     Moved moves{"moves", "fix move one move linear 0 0.2 0 units box", falls};
     moves.more.insert(moves.more.begin(), {"third", "velocity two set 0 -0.3 0 units box"});
@@ -529,8 +477,7 @@ TEST_P(EngineFixes, BallOnOneThatMovesIsThatOnOneAtRest) {
 
 // A moved ball that is free in the direction of the contact has its own mass there.
 TEST_P(EngineFixes, BallThatIsFreeInOneDirectionHasItsMassThere) {
-  const Variables falls = {
-      {"two", "0.5 0.6005 0.5"}, {"mu", "0"}, {"third", "velocity two set 0 -0.5 0 units box"}};
+  const Variables falls = given("two 0.5 0.6005 0.5, mu 0, third velocity two set 0 -0.5 0 units box");
   Moved moves{"moves", "fix move one move linear 0.1 NULL 0 units box", falls};
   Moved free{"free", "velocity one set 0.1 0 0 units box", falls};
   free.more.insert(free.more.begin(), {"integrated", "all"});
@@ -543,13 +490,13 @@ TEST_P(EngineFixes, BallThatIsFreeInOneDirectionHasItsMassThere) {
 }
 
 TEST_P(EngineFixes, RanksAgreeWithOne) {
-  std::vector<Variables> scenes = {flying(true, {{"c", "1000"}, {"mu", "0.4"}})};
+  std::vector<Variables> scenes = {flying(true, given("c 1000, mu 0.4"))};
   for (const Deforming &scene : deforming()) {
     scenes.push_back(variables_of(scene, scene.shift));
     if (most_ranks() == 2 && scene.name != std::string("along x and y, a corner")) continue; // by night
     Deforming bond = scene;
-    bond.law = {{"fourth", "fix bond all bond/spring 1 2 1e5 3e5 length 0.105"},
-                {"fifth", "neigh_modify exclude group one two"}};
+    bond.law = given(
+        "fourth fix bond all bond/spring 1 2 1e5 3e5 length 0.105, fifth neigh_modify exclude group one two");
     scenes.push_back(variables_of(bond, scene.shift));
   }
   if (std::get<0>(GetParam()) == "lammps")

@@ -1,25 +1,15 @@
-// Friction as the engine's tangential history and our tangential coulomb apply it to our contact: the core's
-// law along recorded paths, closed forms of sticking and sliding, the defaults, that the history of a broken
-// contact is deleted, impulses of oblique impacts, and a clump on a slope.
-#include "tests/support/balls_run.h"
-#include "tests/support/checks.h"
-#include "tests/support/engine_and_scheme.h"
-
+// Friction in both engines, and all combinations of tangential and rolling models.
+#include "tests/support/engine_runs.h"
+#include "bed/dump_readers.h"
 #include "physics/laws/friction_law.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <complex>
-#include <ostream>
-#include <string>
-#include <tuple>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
+
+// Friction as the engine's tangential history and our tangential coulomb apply it to our contact: the core's
+// law along recorded paths, closed forms of sticking and sliding, the defaults, that the history of a broken
+// contact is deleted, impulses of oblique impacts, and a clump on a slope.
+namespace friction {
 
 using physics::Vec3;
 using post::Transition;
@@ -51,16 +41,10 @@ struct Throw {
   double damping() const { return 2 * D * std::sqrt(mass * k); }
 
   BallsRun run(const Variables &more) const {
-    Variables variables = {{"obstacle", obstacle},
-                           {"transition", post::transition_name(transition)},
-                           {"models", coulomb() ? "tangential coulomb" : "tangential history"},
-                           {"dashpot", number(D)},
-                           {"g", number(g)},
-                           {"gap", "1e-4"},
-                           {"velocity2", "1.4 0.1 -0.5"},
-                           {"spin2", "-0.2"},
-                           {"dt", number(dt)},
-                           {"steps", "5000"}};
+    Variables variables = given("obstacle {}, transition {}, models {}, dashpot {}, g {}, gap 1e-4, "
+                                "velocity2 1.4 0.1 -0.5, spin2 -0.2, dt {}, steps 5000",
+                                obstacle, post::transition_name(transition),
+                                coulomb() ? "tangential coulomb" : "tangential history", D, g, dt);
     variables.insert(variables.end(), more.begin(), more.end());
     return run_balls(variables);
   }
@@ -164,22 +148,20 @@ TEST_P(Friction, IsTheCoresLawAlongThePathWithTheDefaults) {
 
 TEST_P(Friction, DefaultsAreTheValuesThatAreDocumented) {
   const Throw &scene = GetParam();
-  const BallsRun given = scene.run({{"kt", number(scene.friction.stiffness)},
-                                    {"ct", number(scene.friction.damping)},
-                                    {"mu", number(scene.friction.coefficient)}});
+  const BallsRun as_given = scene.run(given("kt {}, ct {}, mu {}", scene.friction.stiffness,
+                                            scene.friction.damping, scene.friction.coefficient));
   const BallsRun defaults = scene.run({});
-  const long id = given.frames.front().balls.rbegin()->first;
+  const long id = as_given.frames.front().balls.rbegin()->first;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    EXPECT_LT(relative_difference(given.series(id, &Ball::x, axis), defaults.series(id, &Ball::x, axis)),
+    EXPECT_LT(relative_difference(as_given.series(id, &Ball::x, axis), defaults.series(id, &Ball::x, axis)),
               1e-12);
 }
 
 TEST_P(Friction, GivenValuesAreTheOnesUsed) {
   Throw scene = GetParam();
   scene.friction = {0.8 * k, 0.15 * scene.damping(), 0.3, scene.friction.cap};
-  const BallsRun run = scene.run({{"kt", number(scene.friction.stiffness)},
-                                  {"ct", number(scene.friction.damping)},
-                                  {"mu", number(scene.friction.coefficient)}});
+  const BallsRun run = scene.run(given("kt {}, ct {}, mu {}", scene.friction.stiffness,
+                                       scene.friction.damping, scene.friction.coefficient));
   const Replay law = replay(scene, run, true);
   EXPECT_LT(law.force, 1e-10);
   EXPECT_LT(law.torque, 1e-10);
@@ -201,12 +183,8 @@ INSTANTIATE_TEST_SUITE_P(Obstacle, Friction, ::testing::ValuesIn(throws), [](con
 /// A ball at rest on a plane under its weight, set in motion along it.
 BallsRun pushed(const std::string &stepping, double dt, int steps, const Variables &how) {
   Variables variables = how;
-  for (const auto &[name, value] : Variables{{"obstacle", "plane"},
-                                             {"stepping", stepping},
-                                             {"g", "9.81"},
-                                             {"gap", number(-mass * 9.81 / k)},
-                                             {"dt", number(dt)},
-                                             {"steps", std::to_string(steps)}})
+  for (const auto &[name, value] : given("obstacle plane, stepping {}, g 9.81, gap {}, dt {}, steps {}",
+                                         stepping, -mass * 9.81 / k, dt, steps))
     variables.emplace_back(name, value);
   return run_balls(variables);
 }
@@ -255,46 +233,19 @@ constexpr double kt = 2.0 / 7.0 * k;
 const double ct = 0.5 * 2 * 0.5 * std::sqrt(mass * k);
 const SmallMotion small_motions[] = {
     {"ShearSpring", // `history` is the same then
-     {{"models", "tangential coulomb"}, {"integrator", "nve"}, {"ct", "0"}, {"velocity2", "1e-3 0 0"}},
-     1e-3,
-     kt / mass,
-     0,
-     false,
+     given("models tangential coulomb, integrator nve, ct 0, velocity2 1e-3 0 0"), 1e-3, kt / mass, 0, false,
      2},
-    {"ShearSpringAndDashpot",
-     {{"models", "tangential history"}, {"integrator", "nve"}, {"velocity2", "1e-3 0 0"}},
-     1e-3,
-     kt / mass,
-     ct / mass,
-     false,
-     1},
-    {"CoulombSpringAndDashpot",
-     {{"models", "tangential coulomb"}, {"integrator", "nve"}, {"velocity2", "1e-3 0 0"}},
-     1e-3,
-     kt / mass,
-     ct / mass,
-     false,
-     1},
+    {"ShearSpringAndDashpot", given("models tangential history, integrator nve, velocity2 1e-3 0 0"), 1e-3,
+     kt / mass, ct / mass, false, 1},
+    {"CoulombSpringAndDashpot", given("models tangential coulomb, integrator nve, velocity2 1e-3 0 0"), 1e-3,
+     kt / mass, ct / mass, false, 1},
     {"TangentialDashpot",
-     {{"models", "tangential coulomb"},
-      {"kt", "0"},
-      {"integrator", "nve"},
-      {"ct", "2e4"},
-      {"velocity2", "1e-3 0 0"}},
-     1e-3,
-     0,
-     2e4 / mass,
-     false,
-     1},
+     given("models tangential coulomb, kt 0, integrator nve, ct 2e4, velocity2 1e-3 0 0"), 1e-3, 0,
+     2e4 / mass, false, 1},
     // On a ball, since the engine's rate of rolling on a plane grows with the overlap: kr = kt r_eff^2, I =
     // 0.4 m r^2.
-    {"RollingSpring",
-     {{"obstacle", "ball"}, {"models", "rolling_friction epsd2"}, {"mu_r", "10"}, {"spin2", "1e-3"}},
-     1e-3,
-     kt *std::pow(other_radius / (radius + other_radius), 2) / (0.4 * mass),
-     0,
-     true,
-     2}};
+    {"RollingSpring", given("obstacle ball, models rolling_friction epsd2, mu_r 10, spin2 1e-3"), 1e-3,
+     kt *std::pow(other_radius / (radius + other_radius), 2) / (0.4 * mass), 0, true, 2}};
 INSTANTIATE_TEST_SUITE_P(Law, SmallMotions,
                          ::testing::Combine(::testing::ValuesIn(small_motions),
                                             ::testing::Values("second", "stock")),
@@ -303,8 +254,8 @@ INSTANTIATE_TEST_SUITE_P(Law, SmallMotions,
                          });
 
 TEST(FrictionOnAPlane, SlidesWithMuTimesTheNormalForce) {
-  const BallsRun run = pushed(
-      "stock", 1e-5, 5000, {{"models", "tangential history"}, {"integrator", "nve"}, {"velocity2", "1 0 0"}});
+  const BallsRun run =
+      pushed("stock", 1e-5, 5000, given("models tangential history, integrator nve, velocity2 1 0 0"));
   const double limit = 0.5 * mass * 9.81;
   for (const Frame &frame : run.frames) {
     if (frame.step < 200) continue; // the spring is wound up
@@ -365,7 +316,7 @@ INSTANTIATE_TEST_SUITE_P(Decks, EnergyBalanceOfASlidingBall, engines_and_steppin
 /// equals the heat recorded so far, and this heat never decreases.
 TEST_P(EnergyBalanceOfASlidingBall, ClosesWithDashpotsUnderCoulomb) {
   const Scratch folder;
-  const Outcome outcome = run("slide", folder, {{"tangential", "coulomb"}, {"D", "0.5"}, {"every", "10"}});
+  const Outcome outcome = run("slide", folder, given("tangential coulomb, D 0.5, every 10"));
   ASSERT_TRUE(outcome.ok()) << outcome.output;
   const post::Table table = post::read_table(folder / "bed.csv");
   const std::vector<double> kinetic = table.numbers("kinetic"), elastic = table.numbers("elastic"),
@@ -422,7 +373,7 @@ TEST_P(ObliqueImpacts, OfSlidingBallsHaveMuTimesTheNormalImpulse) {
     }
   // What the engines' rule does, at 76 degrees from the normal.
   for (const auto &[D, known] : {std::pair{"0.3", 1.49}, {"0.5", 1.91}, {"2", 2.24}}) {
-    const std::array<double, 8> spring = ratios({{"tangential", "history"}, {"D", D}});
+    const std::array<double, 8> spring = ratios(given("tangential history, D {}", D));
     EXPECT_NEAR(spring[1], known, 0.02) << D;
     EXPECT_NEAR(spring[5], known, 0.02) << D;
   }
@@ -444,11 +395,8 @@ TEST_P(ObliqueImpacts, OnAWallConvergeWithTheOrderOfTheScheme) {
     std::vector<double> all_steps, errors;
     for (const int steps : {100, 141, 200, 283, 400, 566, 800, 1131, 1600}) {
       const Scratch folder;
-      const Outcome outcome = run("oblique", folder,
-                                  {{"normal", normal},
-                                   {"D", number(D)},
-                                   {"dt", number(time / steps)},
-                                   {"steps", std::to_string(steps)}});
+      const Outcome outcome =
+          run("oblique", folder, given("normal {}, D {}, dt {}, steps {}", normal, D, time / steps, steps));
       ASSERT_TRUE(outcome.ok()) << outcome.output;
       const std::vector<Frame> frames = read_dump(folder / "balls.txt");
       double squares = 0.0;
@@ -482,8 +430,7 @@ protected:
   static Motion motion(Variables variables, const Vec3 &frame) {
     const Scratch folder;
     write_floor(folder / "floor.stl", 0.09, false);
-    for (const auto &[name, value] :
-         Variables{{"dt", number(dt)}, {"ux", number(frame[0])}, {"uz", number(frame[2])}})
+    for (const auto &[name, value] : given("dt {}, ux {}, uz {}", dt, frame[0], frame[2]))
       variables.emplace_back(name, value);
     const Outcome outcome = run("crown", folder, variables);
     EXPECT_TRUE(outcome.ok()) << outcome.output;
@@ -515,7 +462,7 @@ TEST_P(Crown, OfAWallIsThatOfABallOfInfiniteMassThatMoves) {
   constexpr double R = 0.1;
   for (const char *normal : {"hooke", "hertz"})
     for (const char *tangential : {"coulomb", "history"}) {
-      const Variables law = {{"normal", normal}, {"tangential", tangential}};
+      const Variables law = given("normal {}, tangential {}", normal, tangential);
       Variables wall = law;
       wall.emplace_back("wall", "1");
       // The radius of the wall does not count for the Hertz law, that of a ball does.
@@ -536,17 +483,16 @@ TEST_P(Crown, OfAMeshDoesNotDependOnTheFrame) {
   if (std::get<0>(GetParam()) == "lammps") GTEST_SKIP() << "SKIPPED: LAMMPS has no mesh";
   for (const char *tangential : {"coulomb", "history"}) {
     for (const char *normal : {"hooke", "hertz"}) {
-      const Variables fall = {{"wall", "2"},   {"normal", normal},   {"tangential", tangential},
-                              {"g", "9.81"},   {"rolling", "epsd2"}, {"x", "0.2"},
-                              {"z", "0.221"},  {"vx", "0.8"},        {"vz", "-1"},
-                              {"steps", "200"}};
+      const Variables fall = given(
+          "wall 2, normal {}, tangential {}, g 9.81, rolling epsd2, x 0.2, z 0.221, vx 0.8, vz -1, steps 200",
+          normal, tangential);
       const Motion rest = motion(fall, {});
       EXPECT_LT(difference(rest, motion(fall, {0.3, 0, 0.2})), 1e-9) << normal << ", " << tangential;
       EXPECT_LT(difference(rest, motion(fall, {-0.5, 0, -0.4})), 1e-9) << normal << ", " << tangential;
       ASSERT_FALSE(rest.frames.empty());
       EXPECT_GT(rest.frames.back().balls.begin()->second.omega[1], 1.0);
     }
-    const Variables roll = {{"tangential", tangential}, {"R", "1e-12"}, {"steps", "400"}};
+    const Variables roll = given("tangential {}, R 1e-12, steps 400", tangential);
     Variables edge = roll;
     edge.emplace_back("wall", "2");
     edge.emplace_back("mesh_x", "0.11");
@@ -563,7 +509,7 @@ TEST(RotatingDrum, CarriesABallAtItsOwnSpeed) {
   for (const char *tangential : {"coulomb", "history"})
     for (const char *stepping : {"second", "stock"}) {
       const Scratch folder;
-      well(run_deck(test_deck("rotating_drum.in"), {{"tangential", tangential}, {"stepping", stepping}},
+      well(run_deck(test_deck("rotating_drum.in"), given("tangential {}, stepping {}", tangential, stepping),
                     folder.path()));
       const Ball end = read_dump(folder / "balls.txt").back().balls.at(1);
       // The engine's wall has the velocity of the drum where the centre of the ball is; the lever of a
@@ -583,7 +529,7 @@ TEST_P(Slope, HoldsARigidClumpWithoutCreep) {
   const double weight = 0.3 * 9.81 * std::cos(0.9 * std::atan(0.5));
   const double hertz = 4.0 / 3.0 * 2e7 / (2 * (1 - 0.3 * 0.3)) * std::sqrt(0.03); // N/m^(3/2)
   for (const Variables &law :
-       {Variables{}, Variables{{"normal", "hertz"}, {"rest", number(std::pow(weight / hertz, 2.0 / 3.0))}}}) {
+       {Variables{}, given("normal hertz, rest {}", std::pow(weight / hertz, 2.0 / 3.0))}) {
     const Scratch folder;
     Variables variables = law;
     variables.emplace_back("steps", "1000000");
@@ -602,6 +548,106 @@ TEST_P(Slope, HoldsARigidClumpWithoutCreep) {
         }
   }
 }
+
+} // namespace friction
+
+// All combinations of tangential and rolling models that the plugin supports, between balls, on primitive
+// planes and on a mesh: they run, stay finite, keep the balls in the box and dissipate energy.
+namespace of_combinations {
+
+struct Combination {
+  std::string tangential, rolling;
+  std::string words() const { return "tangential " + tangential + " rolling_friction " + rolling; }
+};
+
+void PrintTo(const Combination &value, std::ostream *out) { *out << value.words(); }
+
+std::vector<Frame> run_box(const Combination &models, const char *transition, const char *stepping) {
+  const Scratch scratch;
+  well(run_scene("liggghts", "box",
+                 given("models {}, transition {}, stepping {}", models.words(), transition, stepping),
+                 scratch.path()));
+  return read_dump(scratch / "balls.txt");
+}
+
+constexpr double mass = 0.16, radius = 0.025, g = 9.81;
+
+double energy(const Frame &frame) {
+  double sum = 0;
+  for (const auto &[id, ball] : frame.balls) {
+    sum += mass * g * ball.x[2];
+    for (std::size_t a = 0; a < 3; ++a)
+      sum += 0.5 * mass * (ball.v[a] * ball.v[a] + 0.4 * radius * radius * ball.omega[a] * ball.omega[a]);
+  }
+  return sum;
+}
+
+class Combinations : public ::testing::TestWithParam<Combination> {};
+
+TEST_P(Combinations, RunAndDissipateEnergy) {
+  for (const char *transition : {"A", "B"}) {
+    for (const char *stepping : {"second", "stock"}) {
+      const std::vector<Frame> frames = run_box(GetParam(), transition, stepping);
+      ASSERT_EQ(frames.size(), 5u);
+      const Frame &end = frames.back();
+      ASSERT_EQ(end.balls.size(), 50u);
+      double spin_change = 0;
+      for (const auto &[id, ball] : end.balls) {
+        for (const auto part : {&Ball::x, &Ball::v, &Ball::f, &Ball::omega, &Ball::torque})
+          for (const double value : ball.*part)
+            ASSERT_TRUE(std::isfinite(value)) << "ball " << id;
+        // Walls at -0.15 and 0.15, floor at 0; an impact at 1 m/s overlaps by a millimetre.
+        EXPECT_LT(std::fabs(ball.x[0]), 0.15 - radius + 0.002);
+        EXPECT_LT(std::fabs(ball.x[1]), 0.15 - radius + 0.002);
+        EXPECT_GT(ball.x[2], radius - 0.002);
+        spin_change += std::fabs(ball.omega[0]) + std::fabs(ball.omega[1] - 20) + std::fabs(ball.omega[2]);
+      }
+      EXPECT_LT(energy(end), 0.7 * energy(frames.front()));
+      const bool turns = GetParam().tangential != "off" || GetParam().rolling != "off";
+      EXPECT_EQ(spin_change > 1, turns) << spin_change;
+    }
+  }
+}
+
+TEST(MeshFloor, RowsOfContactsExplainTheForceOnEachBall) {
+  const Scratch scratch;
+  well(run_scene("liggghts", "box", given("models tangential history, stepping stock, every 20"),
+                 scratch.path()));
+  int on_floor = 0;
+  double worst = 0, largest = 0;
+  for (const Frame &frame : read_dump(scratch / "balls.txt")) {
+    std::map<long, std::array<double, 3>> rest;
+    for (const auto &[id, ball] : frame.balls)
+      rest[id] = {ball.f[0], ball.f[1], ball.f[2] + mass * g};
+    const std::string rows = "contacts_" + std::to_string(frame.step) + ".dump";
+    for (const std::vector<double> &row : post::read_text_dump(scratch / rows).rows) {
+      const std::array<double, 3> force = {row[2], row[3], row[4]};
+      const auto i = static_cast<long>(row[0]), j = static_cast<long>(row[1]); // j = 0: a wall
+      const Ball &ball = frame.balls.at(i);
+      const bool at_a_side = std::max(std::fabs(ball.x[0]), std::fabs(ball.x[1])) > 0.15 - radius;
+      if (j == 0 && !at_a_side) ++on_floor;
+      for (std::size_t a = 0; a < 3; ++a) {
+        rest[i][a] -= force[a];
+        if (j > 0) rest[j][a] += force[a];
+        largest = std::max(largest, std::fabs(force[a]));
+      }
+    }
+    for (const auto &[id, force] : rest)
+      for (const double component : force)
+        worst = std::max(worst, std::fabs(component));
+  }
+  EXPECT_GT(on_floor, 50);
+  EXPECT_LT(worst, 1e-12 * largest);
+}
+
+const Combination combinations[] = {{"off", "off"},       {"off", "epsd2"},   {"history", "off"},
+                                    {"history", "epsd2"}, {"coulomb", "off"}, {"coulomb", "epsd2"}};
+std::string name_of(const ::testing::TestParamInfo<Combination> &test) {
+  return test.param.tangential + "_" + test.param.rolling;
+}
+INSTANTIATE_TEST_SUITE_P(Models, Combinations, ::testing::ValuesIn(combinations), name_of);
+
+} // namespace of_combinations
 
 } // namespace
 } // namespace drumlin::test

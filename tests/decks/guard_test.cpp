@@ -1,14 +1,6 @@
 // fix guard in the engine: the critical time step of scenes whose limit is known in closed form, and the runs
 // that it stops.
-#include "tests/support/balls_run.h"
-#include "tests/support/checks.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <regex>
-#include <stdexcept>
-#include <string>
+#include "tests/support/engine_runs.h"
 
 namespace drumlin::test {
 namespace {
@@ -24,8 +16,7 @@ struct GuardValues {
 
 /// The values that fix guard gives for a scene of balls.in in its last step.
 GuardValues guard_values(Variables variables, const std::string &words = "step 1e9") {
-  for (const auto &[name, value] :
-       Variables{{"guard", words}, {"steps", "2"}, {"dt", "1e-6"}, {"gap", "-0.003"}})
+  for (const auto &[name, value] : given("guard {}, steps 2, dt 1e-6, gap -0.003", words))
     variables.emplace_back(name, value);
   const BallsRun run = run_balls(variables);
   std::smatch found;
@@ -38,7 +29,7 @@ GuardValues guard_values(Variables variables, const std::string &words = "step 1
 }
 
 Variables on(const char *obstacle, const char *stepping, double D) {
-  return {{"obstacle", obstacle}, {"stepping", stepping}, {"dashpot", number(D)}};
+  return given("obstacle {}, stepping {}, dashpot {}", obstacle, stepping, D);
 }
 
 /// Root of k dt^2/4 + c dt/2 = m.
@@ -68,8 +59,7 @@ TEST(GuardCriticalStep, OfContactsAtRightAnglesIsThatOfEach) {
 
 TEST(GuardCriticalStep, SumsBondAndContactOfAFreePair) {
   Variables pair = on("ball", "stock", 0.0);
-  for (const auto &[name, value] :
-       Variables{{"fixed", "3"}, {"m1", number(m1)}, {"k23", "2e7"}, {"bond", "3e5 length current"}})
+  for (const auto &[name, value] : given("fixed 3, m1 {}, k23 2e7, bond 3e5 length current", m1))
     pair.emplace_back(name, value);
   const double stock = root(k + 2e7, 3e5, m_limit);
   EXPECT_NEAR(guard_values(pair).critical, stock, 1e-5 * stock);
@@ -77,16 +67,14 @@ TEST(GuardCriticalStep, SumsBondAndContactOfAFreePair) {
 
 TEST(GuardCriticalStep, IncludesFrictionAndRolling) {
   Variables pair = on("ball", "second", 0.5);
-  for (const auto &[name, value] :
-       Variables{{"fixed", "3"}, {"m1", number(m1)}, {"kt", "1e8"}, {"ct", "1e5"}, {"mu", "0.5"}})
+  for (const auto &[name, value] : given("fixed 3, m1 {}, kt 1e8, ct 1e5, mu 0.5", m1))
     pair.emplace_back(name, value);
   // A sphere's tangential mass is 2/7 of its own.
   const Variables sliding = with(pair, {{"models", "tangential history"}});
   const double slides = root(1e8, 1e5, m_limit * 2 / 7);
   EXPECT_NEAR(guard_values(sliding).critical, slides, 1e-5 * slides);
   // kr = kt r_eff^2 in the rotation of both balls, I = 0.4 m r^2, in addition to the shear spring.
-  const Variables rolling =
-      with(pair, {{"mu_r", "0.1"}, {"models", "tangential history rolling_friction epsd2"}});
+  const Variables rolling = with(pair, given("mu_r 0.1, models tangential history rolling_friction epsd2"));
   const double r_eff = 0.5 * 0.75 / 1.25;
   const double kr = 1e8 * r_eff * r_eff / 0.4 * (1 / (m1 * 0.25) + 1 / std::sqrt(m1 * 0.25 * m2 * 0.5625));
   const double rolls = root(1e8 * 3.5 / m_limit + kr, 1e5 * 3.5 / m_limit, 1);
@@ -98,8 +86,8 @@ TEST(GuardStops, BeyondTheGivenShareOfTheCriticalStep) {
   for (const double share : {0.25, 1.0}) {
     const auto run = [&](double dt) {
       Variables variables = on("plane", "second", 0.5);
-      for (const auto &[name, value] : Variables{
-               {"guard", "step " + number(share)}, {"dt", number(dt)}, {"gap", "-0.003"}, {"steps", "2"}})
+      for (const auto &[name, value] :
+           given("guard {}, dt {}, gap -0.003, steps 2", "step " + number(share), dt))
         variables.emplace_back(name, value);
       return run_balls(variables);
     };
@@ -112,8 +100,7 @@ TEST(GuardStops, BeyondTheGivenShareOfTheCriticalStep) {
 // There is no contact at set-up: the run stops at a later check.
 TEST(GuardStops, WhenTheContactIsMade) {
   Variables variables = on("plane", "second", 0.5);
-  for (const auto &[name, value] :
-       Variables{{"guard", "step 0.001"}, {"velocity2", "0 0 -0.5"}, {"gap", "1.05e-4"}, {"steps", "100"}})
+  for (const auto &[name, value] : given("guard step 0.001, velocity2 0 0 -0.5, gap 1.05e-4, steps 100"))
     variables.emplace_back(name, value);
   EXPECT_TRUE(contains(error_of([&] { run_balls(variables); }),
                        {"no contact and no bond yet",

@@ -1,25 +1,7 @@
 // What must not change the results of a scene: every row of the table `invariances`, run in each way that it
 // names.
 #include "tests/core/law_samples.h"
-#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
-#include "tests/support/host_deck.h"
-
-#include "support/csv.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <fstream>
-#include <limits>
-#include <map>
-#include <memory>
-#include <numeric>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -55,23 +37,6 @@ struct Row {
   bool newton = false, by_night = false;
   std::vector<Change> also;
 };
-
-std::vector<std::string> parts_of(const std::string &text, const std::string &between) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (std::size_t at = text.find(between); at != std::string::npos; at = text.find(between, begin)) {
-    parts.push_back(text.substr(begin, at - begin));
-    begin = at + between.size();
-  }
-  parts.push_back(text.substr(begin));
-  return parts;
-}
-
-std::string replaced(std::string text, const std::string &what, const std::string &by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-    text.replace(at, what.size(), by);
-  return text;
-}
 
 /// Reads a table line by line. Throws std::runtime_error with file and line.
 class Reader {
@@ -187,7 +152,7 @@ private:
       Row of_law = row;
       const std::string style = Law::name;
       of_law.text = style.substr(0, style.find('/'));
-      of_law.variables = {{"normal", of_law.text}, {"tangential", "coulomb"}, {"rolling", "epsd2"}};
+      of_law.variables = given("normal {}, tangential coulomb, rolling epsd2", of_law.text);
       std::string words;
       for_each_given<Law>(1e5, [&](const auto &p, double value) {
         if (may_be_left_out(p)) return;
@@ -414,7 +379,7 @@ private:
     for (const std::string &start : starts) {
       const Scratch again; // with the tables of the first part
       fs::copy(left, again.path());
-      run(way, {{"again", "1"}, {"start", (left / start).string()}}, again);
+      run(way, given("again 1, start {}", (left / start).string()), again);
       for (const ResultFile &file : row_.files)
         expect_continued(file, stayed.path(), left, again.path(),
                          way.name() + ", " + start + ", " + file.name);

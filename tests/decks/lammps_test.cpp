@@ -1,26 +1,10 @@
 // What LAMMPS alone has: faces of regions, data files, partitions, suffixes, rigid bodies, compute
 // pair/local. That it gives the results of LIGGGHTS is a matter of the table `invariances`.
 #include "tests/support/chain_by_cvode.h"
-#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
-#include "tests/support/frame_distance.h"
-
 #include "bed/dump_readers.h"
 #include "chain/analysis.h"
 #include "chain/exact_solution.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <fstream>
-#include <map>
-#include <ostream>
-#include <string>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -28,17 +12,15 @@ namespace {
 /// Everything here needs an lmp with the plugin.
 class InLammps : public ::testing::Test {
 protected:
-  void SetUp() override {
-    if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  }
+  void SetUp() override { SKIP_WITHOUT_LAMMPS(true); }
 };
 
 // The Hertz law's dashpot has no value at a negative overlap: a contact that has ended has no force.
 TEST(InLammpsWalls, WithoutHistoryEndsAContactWithoutAForce) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  SKIP_WITHOUT_LAMMPS(true);
   const Scratch folder;
-  well(run_scene("lammps", "bounce",
-                 {{"normal", "hertz"}, {"tangential", "no_history"}, {"stepping", "stock"}}, folder.path()));
+  well(run_scene("lammps", "bounce", given("normal hertz, tangential no_history, stepping stock"),
+                 folder.path()));
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   ASSERT_FALSE(frames.empty());
   for (const auto &[id, ball] : frames.back().balls)
@@ -70,8 +52,7 @@ TEST_F(InLammps, PartitionsAreRunsOfTheirOwnOnRanksOneAndTwo) {
                   scratch.path()));
   for (const char *transition : {"A", "B"}) {
     const Scratch alone;
-    well(
-        run_deck(chain_deck("in.chain.lammps"), {{"transition", transition}, {"cycles", "3"}}, alone.path()));
+    well(run_deck(chain_deck("in.chain.lammps"), given("transition {}, cycles 3", transition), alone.path()));
     for (const char *table : {"chain.csv", "events.csv", "cycles.csv"})
       EXPECT_EQ(read_text(alone / table), read_text(scratch / "both" / transition / table)) << table;
   }
@@ -105,20 +86,19 @@ TEST_F(InLammps, RefusesTheHistoryOfAnotherWallOnRanksOneAndTwo) {
     const Scratch folder;
     EXPECT_TRUE(fails_with(
         run_scene("lammps", "bounce",
-                  {{"again", "1"}, {"start", (block / "first.restart").string()}, {"walls", "cylinder"}},
+                  given("again 1, start {}, walls cylinder", (block / "first.restart").string()),
                   folder.path(), ranks),
         "fix wall/gran/transition: the restart file holds another wall under the ID 'walls'; allowed: "));
   }
 }
 
 /// No dashpots and no friction: contacts without history, whose forces are those of a potential energy.
-const Variables springs = {{"D", "0"}, {"tangential", "off"}, {"mu", "-1"}};
+const Variables springs = given("D 0, tangential off, mu -1");
 
 TEST_F(InLammps, ContinuesFromADataFileWithoutContactHistory) {
   const Scratch stayed, left;
   well(run_scene("lammps", "bounce", springs, stayed.path()));
-  const Variables from = {
-      {"start", (stayed / "first.data").string()}, {"again", "1"}, {"data", "1"}, {"law", "deck"}};
+  const Variables from = given("start {}, again 1, data 1, law deck", (stayed / "first.data").string());
   well(run_scene("lammps", "bounce", with(springs, from), left.path()));
   std::vector<Frame> whole = read_dump(stayed / "balls.txt");
   const std::vector<Frame> rest = read_dump(left / "balls.txt");
@@ -171,7 +151,7 @@ TEST_F(InLammps, ForcesAreTheCentralDifferencesOfTheEnergy) {
     for (const char *walls : {"planes", "block", "cylinder"}) {
       const bool pipe = std::string(walls) == "cylinder";
       const Scratch folder;
-      const Variables variables = with(springs, {{"stepping", stepping}, {"walls", walls}});
+      const Variables variables = with(springs, given("stepping {}, walls {}", stepping, walls));
       well(run_scene("lammps", "bounce", variables, folder.path()));
       double largest = 0.0;
       for (const Frame &frame : read_dump(folder / "balls.txt"))
@@ -195,8 +175,8 @@ TEST_F(InLammps, ForcesAreTheCentralDifferencesOfTheEnergy) {
 TEST_F(InLammps, ContactsOfADumpExplainTheForcesOnBallsOnRanksOneAndTwo) {
   for (const auto &[ranks, newton] : {std::pair{1, "off"}, {2, "off"}, {1, "on"}, {2, "on"}}) {
     const Scratch folder;
-    well(run_scene("lammps", "bounce", {{"D", "0"}, {"dump_every", "500"}, {"newton", newton}}, folder.path(),
-                   ranks));
+    well(
+        run_scene("lammps", "bounce", given("D 0, dump_every 500, newton {}", newton), folder.path(), ranks));
     std::array<std::size_t, 2> judged{};
     const std::map<long, post::StepDump> steps = post::dumped_steps(folder / "dump");
     EXPECT_EQ(steps.size(), 25u);
@@ -256,10 +236,8 @@ TEST_F(InLammps, AnImpactConvergesToTheClosedForm) {
     for (const char *count : {"100", "400", "1600"}) {
       const Scratch folder;
       well(run_deck(chain_deck("in.impact.lammps"),
-                    {{"transition", post::transition_name(transition)},
-                     {"D", number(p.damping_ratio)},
-                     {"steps_per_contact", count},
-                     {"samples", "100"}},
+                    given("transition {}, D {}, steps_per_contact {}, samples 100",
+                          post::transition_name(transition), p.damping_ratio, count),
                     folder.path()));
       const double error = std::fabs(read_run(folder.path()).history.v_drum.back() - exact);
       EXPECT_LT(error, p.speed / (std::stod(count) * std::stod(count))) // of second order
@@ -288,7 +266,7 @@ TEST_F(InLammps, RigidBodyBouncesWithItsMassOnRanksOneAndTwo) {
                                        {"nve/small", 1}}) {
       const auto velocities = [&, rigid = rigid, ranks = ranks](const Variables &law) {
         const Scratch folder;
-        const Variables variables = with(law, {{"target", target}, {"rigid", rigid}, {"D", number(D)}});
+        const Variables variables = with(law, given("target {}, rigid {}, D {}", target, rigid, D));
         well(run_deck(test_deck("dumbbell.lammps"), variables, folder.path(), ranks));
         std::vector<double> values(3);
         std::ifstream in(folder / "velocities.txt");

@@ -1,24 +1,8 @@
 // Beds of layers, and of a given grading.
-#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
-#include "tests/support/host_deck.h"
-
 #include "bed/dump_readers.h"
 #include "engine/deck_run.h"
 #include "runs/parameter_file.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <map>
-#include <sstream>
-#include <string>
-#include <tuple>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -69,10 +53,7 @@ int type_of(std::size_t layer) { return layer == 0 ? 1 : static_cast<int>(layer)
 /// Engine and dimension.
 class Layers : public ::testing::TestWithParam<std::tuple<std::string, std::string>> {
 protected:
-  void SetUp() override {
-    if (std::get<0>(GetParam()) == "lammps" && !post::has_lammps())
-      GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  }
+  void SetUp() override { SKIP_WITHOUT_LAMMPS(std::get<0>(GetParam()) == "lammps"); }
 
   /// Runs layers.scene with these balls.
   static Outcome run_scene(const Scratch &folder, const std::vector<Placed> &balls, const Variables &more,
@@ -86,13 +67,9 @@ protected:
         lists[n] += (lists[n].empty() ? "" : ",") + number(values[n]);
     }
     const auto &[engine, dimension] = GetParam();
-    variables.insert(variables.end(), {{"k", lists[0]},
-                                       {"D", lists[1]},
-                                       {"friction", lists[2]},
-                                       {"rolling", lists[3]},
-                                       {"suction", lists[4]},
-                                       {"dimension", dimension},
-                                       {"balls", (folder / "balls").string()}});
+    variables = with(
+        variables, given("k {}, D {}, friction {}, rolling {}, suction {}, dimension {}, balls {}", lists[0],
+                         lists[1], lists[2], lists[3], lists[4], dimension, (folder / "balls").string()));
     return test::run_scene(engine, "layers", variables, folder.path(), ranks);
   }
   /// The last state of layers.scene with these balls.
@@ -251,11 +228,9 @@ protected:
   static Outcome settle(const Scratch &folder, const Variables &more, int ranks = 1,
                         const std::vector<std::string> &more_words = {}) {
     const auto &[engine, dimension] = GetParam();
-    std::vector<std::string> words = {DRUMLIN_TOOLS, "bed",     "--width", "0.8",   "--layer",
-                                      "0.2",         "--layer", "0.1",     "--out", "balls"};
+    std::vector<std::string> words = tool_words("bed --width 0.8 --layer 0.2 --layer 0.1 --out balls");
     if (dimension == "3")
-      words = {DRUMLIN_TOOLS, "bed", "--width", "0.3", "--depth", "0.15",
-               "--layer",     "0.2", "--layer", "0.1", "--out",   "balls"};
+      words = tool_words("bed --width 0.3 --depth 0.15 --layer 0.2 --layer 0.1 --out balls");
     words.insert(words.end(), more_words.begin(), more_words.end());
     well(run_program(words, {}, folder.path()));
     const bool flat = dimension == "2";
@@ -316,8 +291,7 @@ TEST_P(LayeredBed, HasASpotInItsLowestLayer) {
       settle(folder, {}, 1, spot),
       "variable pour_friction is '0.5,0.1'; allowed: one number, or 3 separated by commas, one for each "
       "layer, the lowest first, and then one for each spot"));
-  well(settle(folder, {{"k", "1e8,1e9,1e7"}, {"friction", "0.5,0.8,0.4"}, {"pour_friction", "0.5,0.1,0.5"}},
-              1, spot));
+  well(settle(folder, given("k 1e8,1e9,1e7, friction 0.5,0.8,0.4, pour_friction 0.5,0.1,0.5"), 1, spot));
   const std::string text = read_text(folder / "soil.data");
   for (const char *note : {"layers 2\n", "spots -0.1:0.15\n", "k 1e8,1e9,1e7\n"})
     EXPECT_TRUE(contains(text, std::string("# drumlin note ") + note)) << note;
@@ -348,10 +322,10 @@ TEST_P(LayeredBed, IsPouredForItsRelativeDensity) {
   write_text(folder / "density.csv",
              "share,friction,rolling,void_ratio,solid_fraction,relative_density,compaction,coordination,"
              "dimension,spread\n1,0.8,0.45,0.29,0.775,0,0.92,3,2,0.2\n0,0,0,0.19,0.84,1,1,4,2,0.2\n");
-  well(run_program({DRUMLIN_TOOLS, "bed", "--width", "1", "--layer", "0.3", "--layer", "0.3", "--packings",
-                    "density.csv", "--relative-density", "0", "--relative-density", "1", "--out", "balls"},
+  well(run_program(tool_words("bed --width 1 --layer 0.3 --layer 0.3 --packings density.csv "
+                              "--relative-density 0 --relative-density 1 --out balls"),
                    {}, folder.path()));
-  const Variables variables = {{"pour_k", "1e8"}, {"pour_dt", "1.8e-5"}, {"balls", "balls"}, {"bed", "soil"}};
+  const Variables variables = given("pour_k 1e8, pour_dt 1.8e-5, balls balls, bed soil");
   const std::filesystem::path deck = bed_deck(engine == "lammps" ? "in.settle.lammps" : "in.settle");
   EXPECT_TRUE(printed(run_deck(deck, with(variables, {{"pour_friction", "0.3"}}), folder.path()),
                       "variable pour_friction is '0.3'; allowed: 0.8,0, with which 'balls' was made"));
@@ -382,20 +356,8 @@ TEST_P(LayeredBed, IsPouredForItsRelativeDensity) {
 // for.
 TEST(BedOfASieveCurve, GetsTheDensityAskedFor_ByNight) {
   const Scratch folder;
-  const std::vector<std::string> words = {DRUMLIN_TOOLS,
-                                          "bed",
-                                          "--sieve",
-                                          "20-60",
-                                          "--cut",
-                                          "20",
-                                          "--out",
-                                          "balls.data",
-                                          "--balls",
-                                          "800",
-                                          "--width",
-                                          "2",
-                                          "--relative-density",
-                                          "0.5"};
+  const std::vector<std::string> words =
+      tool_words("bed --sieve 20-60 --cut 20 --out balls.data --balls 800 --width 2 --relative-density 0.5");
   const Outcome made = run_program(words, {}, folder.path(), 1800.0);
   well(made);
   EXPECT_TRUE(made.says("LIGGGHTS pours 15 samples of ")) << made.output;
@@ -413,8 +375,8 @@ TEST(BedOfASieveCurve, GetsTheDensityAskedFor_ByNight) {
   well(again);
   EXPECT_TRUE(again.says("Layer 1: packings of balls_packings.csv\n")) << again.output;
   EXPECT_TRUE(read_text(folder / "balls.data") == first);
-  const Outcome settled = run_deck(post::input_file("bed/in.settle"),
-                                   {{"balls", "balls.data"}, {"bed", "soil.restart"}}, folder.path());
+  const Outcome settled =
+      run_deck(post::input_file("bed/in.settle"), given("balls balls.data, bed soil.restart"), folder.path());
   well(settled);
   EXPECT_TRUE(settled.says(" where 0.5 was asked for\n")) << settled.output;
   EXPECT_FALSE(settled.says("WARNING: drumlin/density")) << settled.output;
@@ -439,26 +401,21 @@ TEST_P(LayeredBed, CarriesARollerAndContinuesWhereItStopped) {
   const auto &[engine, dimension] = GetParam();
   if (dimension == "3") return;
   const Scratch folder;
-  well(settle(folder, {{"fall", "0.01"}, {"ratio", "1e9"}, {"case", "two_layers"}}));
+  well(settle(folder, given("fall 0.01, ratio 1e9, case two_layers")));
   const std::string ending = engine == "lammps" ? ".lammps" : "";
-  const Variables roller = {{"r2", "0.1"}, {"r3", "0.05"}, {"m2", "1000"}, {"m3", "500"}};
-  const Variables placing =
-      with(roller, {{"bed", "soil"}, {"start", "roller"}, {"sink", "0"}, {"ratio", "1e9"}});
+  const Variables roller = given("r2 0.1, r3 0.05, m2 1000, m3 500");
+  const Variables placing = with(roller, given("bed soil, start roller, sink 0, ratio 1e9"));
   well(run_deck(bed_deck("in.place" + ending), placing, folder.path()));
   const auto shake = [&, lammps = engine == "lammps"](Variables variables) {
     // A frequency so high that the steps are short.
-    variables.insert(variables.end(), {{"cycles", "2"},
-                                       {"omega", "1e5"},
-                                       {"Fw", "1"},
-                                       {"balance", "1e30"},
-                                       {"start", "roller"},
-                                       {"boundary", "absorb"}});
+    variables =
+        with(variables, given("cycles 2, omega 1e5, Fw 1, balance 1e30, start roller, boundary absorb"));
     if (lammps) variables.emplace_back("rest", "0");
     return run_deck(bed_deck("in.bed" + ending), variables, folder.path());
   };
   const Outcome whole = well(shake({{"out", "whole"}}));
-  EXPECT_TRUE(printed(shake({{"out", "parts"}, {"time_limit", "1e-3"}}), "continue from "));
-  well(shake({{"out", "parts"}, {"start", "parts/stopped.restart"}}));
+  EXPECT_TRUE(printed(shake(given("out parts, time_limit 1e-3")), "continue from "));
+  well(shake(given("out parts, start parts/stopped.restart")));
   EXPECT_EQ(read_text(folder / "whole/bed.csv"), read_text(folder / "parts/bed.csv"));
   std::map<std::string, std::string> made = post::read_parameters(folder / "whole/parameters.csv");
   EXPECT_EQ(made["k"], "1e8,1e9");
@@ -493,29 +450,17 @@ fs::path deck(const char *name) { return fs::path(DRUMLIN_SOURCE_DIR) / "inputs/
 /// A scene of the decks from balls to a cycle of excitation, hardly settled; its parameters.csv.
 std::map<std::string, std::string> parameters_of(const Scratch &folder, const std::vector<std::string> &sizes,
                                                  const std::string &case_name, const char *last_deck) {
-  std::vector<std::string> words = {DRUMLIN_TOOLS, "bed", "--balls", "40",
-                                    "--width",     "0.4", "--out",   "balls"};
+  std::vector<std::string> words = tool_words("bed --balls 40 --width 0.4 --out balls");
   words.insert(words.end(), sizes.begin(), sizes.end());
   well(run_program(words, {}, folder.path()));
-  well(
-      run_deck(deck("in.settle"),
-               {{"case", case_name}, {"balls", "balls"}, {"bed", "soil"}, {"fall", "0.01"}, {"ratio", "1e9"}},
-               folder.path()));
+  well(run_deck(deck("in.settle"), given("case {}, balls balls, bed soil, fall 0.01, ratio 1e9", case_name),
+                folder.path()));
   well(run_deck(deck("in.place"),
-                {{"case", case_name},
-                 {"bed", "soil"},
-                 {"start", "roller"},
-                 {"sink", "0"},
-                 {"ratio", "1e9"},
-                 {"r2", "0.1"},
-                 {"r3", "0.05"},
-                 {"m2", "1000"},
-                 {"m3", "500"}},
+                given("case {}, bed soil, start roller, sink 0, ratio 1e9, r2 0.1, r3 0.05, m2 1000, m3 500",
+                      case_name),
                 folder.path()));
   // A cycle of 20 Hz, from which the number of steps follows.
-  well(run_deck(deck(last_deck),
-                {{"start", "roller"}, {"out", "B"}, {"cycles", "1"}, {"Fw", "1"}, {"balance", "1e30"}},
-                folder.path()));
+  well(run_deck(deck(last_deck), given("start roller, out B, cycles 1, Fw 1, balance 1e30"), folder.path()));
   return post::read_parameters(folder / "B/parameters.csv");
 }
 
@@ -577,10 +522,9 @@ TEST(BedOnRanks, HasEveryBallWhereItIsOnOne) {
     std::vector<post::TextDump> one;
     for (const int ranks : {1, 2}) {
       const Scratch scratch;
-      well(run_deck(
-          post::input_file("study/in.small_bed"),
-          {{"rows", "1"}, {"drum_mass", "100"}, {"settling", "6000"}, {"centre", centre}, {"out", "out"}},
-          scratch.path(), ranks));
+      well(run_deck(post::input_file("study/in.small_bed"),
+                    given("rows 1, drum_mass 100, settling 6000, centre {}, out out", centre), scratch.path(),
+                    ranks));
       const post::TextDump last = post::read_text_dumps(scratch / "out/last.dump").back();
       if (ranks == 1) {
         one = {last};

@@ -1,19 +1,6 @@
 // The engines' own fixes, run styles and walls beside the plugin: plugin/doc/with_other_styles.md. Two balls
 // over a floor, one of which falls on it, in both engines, and lines of the test's own.
-#include "tests/support/balls_run.h"
-#include "tests/support/checks.h"
-#include "tests/support/host_deck.h"
-#include "tests/support/lines.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <ostream>
-#include <regex>
-#include <string>
-#include <vector>
+#include "tests/support/engine_runs.h"
 
 namespace drumlin::test {
 namespace {
@@ -103,10 +90,6 @@ double difference(const std::map<long, Ball> &one, const std::map<long, Ball> &o
       most = std::isfinite(change) ? std::max(most, std::fabs(change)) : HUGE_VAL;
   return most;
 }
-
-bool skips(bool lammps) { return lammps && !post::has_lammps(); }
-#define SKIP_WITHOUT_LAMMPS(lammps)                                                                          \
-  if (skips(lammps)) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)"
 
 // --- fixes that add forces
 // ----------------------------------------------------------------------------------------
@@ -602,7 +585,7 @@ INSTANTIATE_TEST_SUITE_P(Fixes, Inserted, ::testing::ValuesIn(insertions),
 // One warning, which names the fix, for two runs.
 TEST(OtherStylesOnNoList, GetOneWarning) {
   for (const bool lammps : {false, true}) {
-    if (skips(lammps)) continue;
+    if (lammps && !post::has_lammps()) continue;
     const Scratch folder;
     const auto file = folder / (lammps ? "deck.lammps" : "deck.in");
     std::string text = deck({lammps, "second", 1e-5, 10, "fix added all external pf/array 1"});

@@ -1,21 +1,10 @@
 // Drum and frame that tilt, in.rocking in both engines, against the exact solution: unequal halves that lose
 // contact at both ends, equal ones against in.chain, free rocking against its frequency; energy, restarts and
 // ranks.
-#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
-
 #include "chain/analysis.h"
 #include "chain/two_ends.h"
 #include "files/roller.h"
-#include "support/files.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-#include <set>
-#include <string>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -37,15 +26,13 @@ public:
   }
 
   Variables files() const {
-    return {{"roller", (folder_ / "machine").string()}, {"contacts", (folder_ / "soil").string()}};
+    return given("roller {}, contacts {}", (folder_ / "machine").string(), (folder_ / "soil").string());
   }
   /// The first value of a variable counts.
   Variables variables(const Variables &more) const {
     Variables all = more;
-    for (const Variables &some : {files(),
-                                  {{"tilt", "1e-4"},
-                                   {"cycles", std::to_string(cycles)},
-                                   {"samples_per_cycle", std::to_string(samples)}}})
+    for (const Variables &some :
+         {files(), given("tilt 1e-4, cycles {}, samples_per_cycle {}", cycles, samples)})
       all.insert(all.end(), some.begin(), some.end());
     return all;
   }
@@ -100,7 +87,7 @@ TEST_P(Rocking, FollowsTheDirectSolver) {
   std::vector<std::vector<double>> errors(std::size(ends_columns));
   for (const double count : steps) {
     const ChainRun run =
-        rocking.run({{"steps_per_cycle", number(count)}, {"transition", post::transition_name(GetParam())}});
+        rocking.run(given("steps_per_cycle {}, transition {}", count, post::transition_name(GetParam())));
     ASSERT_EQ(run.history.size(), exact.history.size());
     for (std::size_t n = 0; n < errors.size(); ++n)
       errors[n].push_back(post::relative_rms(run.history.*ends_columns[n], exact.history.*ends_columns[n], 0,
@@ -121,7 +108,7 @@ TEST_P(Rocking, FollowsTheDirectSolver) {
 // Work, energies and heat of cycles.csv: the heat of the rotating bodies' links and their kinetic energy.
 TEST_P(Rocking, KeepsItsEnergyBalance) {
   const RockingRun rocking;
-  rocking.run({{"steps_per_cycle", "2000"}, {"transition", post::transition_name(GetParam())}});
+  rocking.run(given("steps_per_cycle 2000, transition {}", post::transition_name(GetParam())));
   const post::CycleColumns table = post::read_cycle_columns(rocking / "cycles.csv");
   const auto of = [&](std::size_t row, const char *name) { return table.at(name)[row]; };
   const auto sum = [&](std::size_t row) {
@@ -145,14 +132,9 @@ TEST(RockingHalves, AreTheChainIfTheyAreEqual) {
   const RockingRun rocking(symmetric);
   for (const std::string stepping : {"second", "stock"})
     for (const std::string transition : {"A", "B"}) {
-      const Variables common = {{"roller", (rocking / "machine").string()},
-                                {"k", "3e7"},
-                                {"D", "0.2"},
-                                {"transition", transition},
-                                {"tilt", "0"},
-                                {"cycles", "8"},
-                                {"stepping", stepping},
-                                {"samples_per_cycle", "100"}};
+      const Variables common = given(
+          "roller {}, k 3e7, D 0.2, transition {}, tilt 0, cycles 8, stepping {}, samples_per_cycle 100",
+          (rocking / "machine").string(), transition, stepping);
       Variables chain = common;
       chain.erase(chain.begin() + 4);
       const Scratch scratch;
@@ -187,8 +169,7 @@ TEST(RockingFreely, HasTheFrequencyOfTwoSprings) {
   std::vector<double> errors;
   const std::vector<double> steps = {500, 1000, 2000};
   for (const double count : steps) {
-    const ChainHistory h =
-        rocking.run({{"steps_per_cycle", number(count)}, {"Fw", "0"}, {"tilt", number(tilt)}}).history;
+    const ChainHistory h = rocking.run(given("steps_per_cycle {}, Fw 0, tilt {}", count, tilt)).history;
     double error = 0.0;
     for (std::size_t n = 0; n < h.size(); ++n) {
       error = std::max(error, std::fabs(h.theta_drum[n] / tilt - std::cos(w * h.time[n])));
@@ -208,8 +189,7 @@ TEST(RockingMeters, TellTheSoilBelowEachHalf) {
   const RockingRun rocking(post::read_text(chain_deck("in.chain").parent_path() / "../rollers/Axas2020"),
                            "y (m),k (N/m),c (N s/m)\n-" + place + ",9e6,58508\n" + place + ",6e6,39006\n");
   rocking.run({{"cycles", "60"}});
-  const Outcome meter =
-      well(run_program({DRUMLIN_TOOLS, "meter", ".", "--out", "values"}, {}, rocking.folder().path()));
+  const Outcome meter = well(run_program(tool_words("meter . --out values"), {}, rocking.folder().path()));
   EXPECT_TRUE(meter.says("Both together: 9 MN/m below the left half, 6 MN/m below the right one"))
       << meter.output;
 }

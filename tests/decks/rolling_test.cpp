@@ -1,25 +1,5 @@
 // Rolling resistance and friction of balls of one size and of very different ones.
-#include "tests/support/checks.h"
-#include "tests/support/engine_and_scheme.h"
-#include "tests/support/frame_distance.h"
-
-#include "support/csv.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <regex>
-#include <sstream>
-#include <string>
-#include <tuple>
-#include <utility>
-#include <vector>
+#include "tests/support/engine_runs.h"
 
 namespace drumlin::test {
 namespace {
@@ -47,16 +27,11 @@ TEST_P(RollingBall, SlowsDownAsTheClosedFormAndItsEnergyBecomesHeat) {
     const double arm = r - 0.5 * law.overlap, inertia = 0.4 * m * r * r + m * arm * arm,
                  rate = mu_r * r * N / inertia;
     const Scratch folder;
-    well(run("slide", folder,
-             {{"normal", law.normal},
-              {"rest", number(law.overlap)},
-              {"tangential", "coulomb"},
-              {"rolling", "epsd2"},
-              {"mu_r", number(mu_r)},
-              {"mu", "2"},
-              {"D", "0.5"},
-              {"spin", number(w0)},
-              {"speed", number(w0 * arm)}}));
+    well(run(
+        "slide", folder,
+        given(
+            "normal {}, rest {}, tangential coulomb, rolling epsd2, mu_r {}, mu 2, D 0.5, spin {}, speed {}",
+            law.normal, law.overlap, mu_r, w0, w0 * arm)));
     const post::Table table = post::read_table(folder / "bed.csv");
     const std::vector<double> time = table.numbers("time"), kinetic = table.numbers("kinetic"),
                               elastic = table.numbers("elastic"), potential = table.numbers("potential"),
@@ -115,12 +90,8 @@ TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
     const auto heap = [&, d = dimension, s = stepping](const Scratch &folder, const char *observed,
                                                        const char *pressed) {
       well(run_scene("liggghts", "heap",
-                     {{"dimension", d},
-                      {"stepping", s},
-                      {"contact_D", damping},
-                      {"observed", observed},
-                      {"pressed", pressed},
-                      {"steps", "2400"}},
+                     given("dimension {}, stepping {}, contact_D {}, observed {}, pressed {}, steps 2400", d,
+                           s, damping, observed, pressed),
                      folder.path()));
       return post::read_text(folder / "balls.txt");
     };
@@ -186,14 +157,11 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
     if (std::string(engine) == "lammps" && !post::has_lammps()) continue;
     for (const char *damping : {"10", "40"}) {
       const Scratch folder;
-      well(run_scene(engine, "heap",
-                     {{"dimension", dimension},
-                      {"stepping", stepping},
-                      {"contact_D", damping},
-                      {"observed", "1"},
-                      {"steps", "4000"},
-                      {"contacts_every", "20"}},
-                     folder.path()));
+      well(run_scene(
+          engine, "heap",
+          given("dimension {}, stepping {}, contact_D {}, observed 1, steps 4000, contacts_every 20",
+                dimension, stepping, damping),
+          folder.path()));
       int contacts = 0, at_limit = 0;
       std::map<long, std::map<long, double>>
           largest; // torque of each ball that its contacts allow, N m, by step
@@ -241,14 +209,9 @@ TEST_P(RollingHeap, TheSpringOfFrictionFollowsTheLimit) {
     if (std::string(engine) == "lammps" && !post::has_lammps()) continue;
     const Scratch folder;
     well(run_scene(engine, "heap",
-                   {{"dimension", dimension},
-                    {"stepping", stepping},
-                    {"contact_D", "20"},
-                    {"rolling_history", "0"},
-                    {"line_of_law", undamped_friction},
-                    {"observed", "1"},
-                    {"steps", "4000"},
-                    {"contacts_every", "4000"}},
+                   given("dimension {}, stepping {}, contact_D 20, rolling_history 0, line_of_law {}, "
+                         "observed 1, steps 4000, contacts_every 4000",
+                         dimension, stepping, undamped_friction),
                    folder.path()));
     double stored = 0.0; // J, of the last step
     const std::map<long, std::vector<ContactRow>> steps = rows_of_contacts(folder / "contacts.txt");

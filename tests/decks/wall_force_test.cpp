@@ -1,17 +1,6 @@
 // The reports of the walls: force, torque, stress and wear of a mesh, force on each ball, force of a wall,
 // against the momentum that the balls gain.
-#include "tests/support/balls_run.h"
-#include "tests/support/checks.h"
-#include "tests/support/engine_and_scheme.h"
-#include "tests/support/lines.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-#include <string>
-#include <vector>
+#include "tests/support/engine_runs.h"
 
 namespace drumlin::test {
 namespace {
@@ -55,7 +44,7 @@ double missing_momentum(const Table &rows, std::size_t column, double sign) {
   return worst;
 }
 
-const Variables mesh_with_stress = {{"mesh", "1"}, {"surface", "mesh/surface/stress"}};
+const Variables mesh_with_stress = given("mesh 1, surface mesh/surface/stress");
 
 class WallForce : public BothEngines {};
 INSTANTIATE_TEST_SUITE_P(Decks, WallForce, engines_and_steppings(), engine_and_stepping);
@@ -65,10 +54,10 @@ INSTANTIATE_TEST_SUITE_P(Decks, WallForce, engines_and_steppings(), engine_and_s
 TEST_P(WallForce, IsTheMomentumThatTheWallsGive) {
   const bool lammps = std::get<0>(GetParam()) == "lammps";
   const Variables faces = lammps ? Variables{{"walls", "block"}} : mesh_with_stress;
-  for (const Variables &law : {Variables{{"normal", "hooke"}, {"transition", "B"}, {"rolling", "epsd2"}},
-                               Variables{{"normal", "hooke"}, {"transition", "A"}, {"tangential", "history"}},
-                               Variables{{"normal", "hertz"}, {"transition", "A"}, {"rolling", "epsd2"}},
-                               Variables{{"normal", "hertz"}, {"transition", "B"}, {"tangential", "off"}}})
+  for (const Variables &law : {given("normal hooke, transition B, rolling epsd2"),
+                               given("normal hooke, transition A, tangential history"),
+                               given("normal hertz, transition A, rolling epsd2"),
+                               given("normal hertz, transition B, tangential off")})
     for (const char *D : {"0.3", "3", "20"}) {
       if (std::get<1>(GetParam()) == "stock" && std::string(D) == "20")
         continue; // beyond its stability limit
@@ -76,7 +65,7 @@ TEST_P(WallForce, IsTheMomentumThatTheWallsGive) {
         const Scratch folder;
         write_floor(folder / "floor.stl", 0.4, false);
         const Outcome outcome =
-            well(run("wall_force", folder, with(with(law, walls), {{"D", D}, {"store", "yes"}})));
+            well(run("wall_force", folder, with(with(law, walls), given("D {}, store yes", D))));
         const bool mesh = !lammps && !walls.empty();
         const Table rows = table_of(outcome.output, mesh ? 17 : 8);
         ASSERT_EQ(rows.size(), 3001u) << outcome.output;
@@ -100,9 +89,9 @@ TEST(WallForceOnRanks, IsThatOnOne) {
     for (const int ranks : {1, 2}) {
       const Scratch folder;
       write_floor(folder / "floor.stl", 0.4, false);
-      const Outcome outcome = well(run_scene(
-          engine, "wall_force", with(walls, {{"newton", newton}, {"rolling", "epsd2"}, {"store", "yes"}}),
-          folder.path(), ranks));
+      const Outcome outcome = well(
+          run_scene(engine, "wall_force", with(walls, given("newton {}, rolling epsd2, store yes", newton)),
+                    folder.path(), ranks));
       const Table rows = table_of(outcome.output, lammps ? 8 : 17);
       ASSERT_EQ(rows.size(), 3001u) << outcome.output;
       EXPECT_LT(missing_momentum(rows, force, 1), 1e-12) << engine << ", ranks " << ranks;
@@ -123,14 +112,11 @@ TEST(ForceOnAMesh, IsTheWeightOfAShakenBallOnAverage) {
     for (const char *D : {"5", "20", "200"}) {
       const Scratch folder;
       write_floor(folder / "floor.stl", 0.4, false);
-      const Outcome outcome = well(run_scene("liggghts", "wall_force",
-                                             with(mesh_with_stress, {{"alone", "1"},
-                                                                     {"normal", normal},
-                                                                     {"D", D},
-                                                                     {"amplitude", "2e-3"},
-                                                                     {"steps", "30000"},
-                                                                     {"store", "yes"}}),
-                                             folder.path()));
+      const Outcome outcome = well(run_scene(
+          "liggghts", "wall_force",
+          with(mesh_with_stress,
+               given("alone 1, normal {}, D {}, amplitude 2e-3, steps 30000, store yes", normal, D)),
+          folder.path()));
       const Table rows = table_of(outcome.output, 17);
       ASSERT_EQ(rows.size(), 12 * period + 1);
       double mean = 0;
@@ -161,16 +147,12 @@ TEST(ForceOnAMesh, GivesItsTorqueStressAndWear) {
   for (const char *stepping : {"second", "stock"}) {
     const Scratch folder;
     write_floor(folder / "floor.stl", 0.4, false);
-    const Outcome outcome =
-        well(run_scene("liggghts", "wall_force",
-                       with(mesh_with_stress, {{"alone", "1"},
-                                               {"stepping", stepping},
-                                               {"D", std::string(stepping) == "second" ? "200" : "5"},
-                                               {"amplitude", "0"},
-                                               {"place", "move 0.2 0.15 0 wear finnie"},
-                                               {"steps", std::to_string(steps)},
-                                               {"store", "yes"}}),
-                       folder.path()));
+    const Outcome outcome = well(run_scene(
+        "liggghts", "wall_force",
+        with(mesh_with_stress, given("alone 1, stepping {}, D {}, amplitude 0, place move 0.2 0.15 0 wear "
+                                     "finnie, steps {}, store yes",
+                                     stepping, std::string(stepping) == "second" ? "200" : "5", steps)),
+        folder.path()));
     const Table rows = table_of(outcome.output, 17);
     ASSERT_EQ(rows.size(), static_cast<std::size_t>(steps) + 1) << outcome.output;
     double wear = 0;

@@ -1,3 +1,13 @@
+// The examples of all pages run.
+#include "tests/support/engine_runs.h"
+#include "physics/laws/laws.h"
+#include "support/other_styles.h"
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
 // The examples of the documentation run. A fenced block whose first line says `run` after the language is an
 // example: ```liggghts run: lines of a deck, run in the host deck in.host; a pair_style or a property in it
 // replaces the host's. ```lammps run: the same in host.lammps; not run where LAMMPS is not set up.
@@ -7,25 +17,6 @@
 // Command lines in indented blocks take too long or need things that a test does not have. A paragraph of the
 // page that begins with "Not run by a test:" says why. Of these, the decks and variables of `./drumlin run`
 // are still checked with the engine.
-
-#include "physics/laws/laws.h"
-#include "tests/support/checks.h"
-#include "tests/support/host_deck.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cctype>
-#include <cstdio>
-#include <iterator>
-#include <regex>
-#include <set>
-#include <sstream>
-
-namespace drumlin::test {
-namespace {
-
-namespace fs = std::filesystem;
 
 const fs::path root = DRUMLIN_SOURCE_DIR;
 
@@ -126,9 +117,9 @@ TEST_P(DocExamplesTest, Run) {
 
 /// Every engine command's page has its parts, and its section Examples an example that runs.
 TEST_P(DocExamplesTest, HaveTheirPlace) {
-  static const std::vector<std::string> others = {"contact_laws.md",     "drum_on_a_bed.md",
-                                                  "in_your_own_deck.md", "roller_columns.md",
-                                                  "stepping.md",         "with_other_styles.md"};
+  static const std::vector<std::string> others =
+      words_of("contact_laws.md drum_on_a_bed.md in_your_own_deck.md roller_columns.md stepping.md "
+               "with_other_styles.md");
   const fs::path file = GetParam();
   if (file.parent_path() != "plugin/doc" ||
       std::find(others.begin(), others.end(), file.filename()) != others.end())
@@ -147,13 +138,6 @@ std::string last_state(const std::string &deck, const std::string &name) {
   well(run_deck(scratch / name, {}, scratch.path()));
   const std::string text = read_text(scratch / "end.txt");
   return text.substr(text.rfind("ITEM: ATOMS"));
-}
-
-std::string replaced(std::string text, const std::string &from, const std::string &to) {
-  EXPECT_TRUE(contains(text, from));
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
 }
 
 // The ball rolls at 5/7 of the speed at which it slid; the engine's own law gives the same to the last bit.
@@ -347,6 +331,81 @@ TEST(DocPages, AreThereForEveryCommand) {
   for (std::string &name : names) {
     std::replace(name.begin(), name.end(), '/', '_');
     EXPECT_TRUE(fs::exists(root / "plugin/doc" / (name + ".md"))) << name;
+  }
+}
+
+// The page on other styles of the engines against the plugin's lists, and both against the engines that are
+// installed.
+
+using Verdicts =
+    std::map<std::string, std::pair<std::string, std::string>>; // of `second` and `stock`, by fix
+
+std::string word_of(Verdict verdict) {
+  return verdict == Verdict::right ? "right" : verdict == Verdict::refused ? "refused" : "untried";
+}
+
+Verdicts of_the_plugin() {
+  Verdicts all;
+  for (const OtherFixes &fixes : other_fixes)
+    for (const std::string &name : words_of(std::string(fixes.names)))
+      EXPECT_TRUE(all.emplace(name, std::pair(word_of(fixes.second), word_of(fixes.stock))).second)
+          << name << " twice";
+  return all;
+}
+
+/// Names in the block below a heading.
+std::vector<std::string> block(const std::string &page, const std::string &heading) {
+  const std::size_t begin = page.find("```text\n", page.find("\n### " + heading + "\n"));
+  return words_of(page.substr(begin + 8, page.find("```", begin + 8) - begin - 8));
+}
+
+/// Of the fixes that the page names; all others have not been tried.
+Verdicts of_the_page() {
+  const std::string page =
+      read_text(std::filesystem::path(DRUMLIN_SOURCE_DIR) / "plugin/doc/with_other_styles.md");
+  const std::vector<std::pair<std::string, Verdicts::mapped_type>> lists = {
+      {"Right with both schemes", {"right", "right"}},
+      {"Fixes that compute, store or write", {"right", "right"}},
+      {"Fixes of the plugin", {"right", "right"}},
+      {"Refused with second, right with stock", {"refused", "right"}},
+      {"Refused with second, not tried with stock", {"refused", "untried"}},
+      {"Refused with both schemes", {"refused", "refused"}}};
+  Verdicts all;
+  for (const auto &[heading, verdicts] : lists)
+    for (const std::string &name : block(page, heading))
+      EXPECT_TRUE(all.emplace(name, verdicts).second) << name << " twice";
+  return all;
+}
+
+TEST(PageOnOtherStyles, HasTheListsOfThePlugin) {
+  const Verdicts page = of_the_page(), plugin = of_the_plugin();
+  const Verdicts::mapped_type untried = {"untried", "untried"};
+  EXPECT_GT(page.size(), 100u);
+  EXPECT_GT(plugin.size(), 300u);
+  for (const auto &[name, verdicts] : plugin)
+    EXPECT_EQ(page.count(name) == 0 ? untried : page.at(name), verdicts) << name;
+  for (const auto &[name, verdicts] : page)
+    EXPECT_EQ(plugin.count(name), 1u) << name;
+}
+
+/// The fixes that an engine lists when it is asked for help.
+std::vector<std::string> fixes_of(const std::vector<std::string> &command) {
+  const Scratch folder;
+  const Outcome help = run_program(command, mpi_environment(folder.path()), folder.path(), 60.0);
+  std::size_t begin = help.output.find("* Fix styles");
+  EXPECT_NE(begin, std::string::npos) << help.output;
+  begin = help.output.find('\n', begin);
+  return words_of(help.output.substr(begin, help.output.find("* Compute styles", begin) - begin));
+}
+
+TEST(PageOnOtherStyles, HasTheFixesOfTheEngines) {
+  std::vector<std::vector<std::string>> engines = {{"liggghts", "-h"}};
+  if (post::has_lammps()) engines.push_back({LAMMPS_PROGRAM, "-h"});
+  for (const std::vector<std::string> &engine : engines) {
+    const std::vector<std::string> fixes = fixes_of(engine);
+    EXPECT_GT(fixes.size(), 50u);
+    for (const std::string &name : fixes)
+      EXPECT_NE(other_fixes_with(name), nullptr) << engine.front() << ": " << name;
   }
 }
 

@@ -1,20 +1,6 @@
 // The front script ./drumlin, called with unusual names and from unusual folders: the user's arguments reach
 // the engine unchanged, or one line says what is wrong.
-#include "engine/engine_run.h"
-#include "support/files.h"
-
-#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <unistd.h>
 
@@ -126,8 +112,7 @@ TEST_F(FrontScript, RunsWithoutHome) {
   well(call(script, {"report", "--help"}, folder));
 }
 
-const std::vector<std::string> short_chain = {"run", "chain/in.chain", "-var", "cycles",
-                                              "1",   "-var",           "out",  "out"};
+const std::vector<std::string> short_chain = words_of("run chain/in.chain -var cycles 1 -var out out");
 
 /// The same with another deck and another folder for results.
 std::vector<std::string> short_run(const std::string &deck, const std::string &out) {
@@ -248,7 +233,7 @@ TEST_F(FrontScript, RunsInAReadOnlyCheckout) {
   const std::string script = "mount --bind \"$0\" \"$0\" && mount -o remount,bind,ro \"$0\" && "
                              "exec \"$0/drumlin\" \"$@\"";
   const auto read_only = [&](const std::vector<std::string> &arguments) {
-    std::vector<std::string> words = {"unshare", "--mount", "sh", "-c", script, place.string()};
+    std::vector<std::string> words = words_of("unshare --mount sh -c {} {}", script, place.string());
     words.insert(words.end(), arguments.begin(), arguments.end());
     return run_program(words, {}, folder, 60.0);
   };
@@ -433,8 +418,8 @@ TEST_F(FrontScript, DemoOfFewCyclesAndBalls) {
                    folder, 60.0));
   const fs::path script = folder / "pre fix/bin/drumlin", work = folder / "work here";
   fs::create_directories(work / "results/demo/of an earlier call");
-  const Outcome outcome = well(run_program(
-      {"env", "-u", "HOME", script.string(), "demo", "--cycles", "1", "--balls", "300"}, {}, work, 280.0));
+  const Outcome outcome = well(
+      run_program(words_of("env -u HOME {} demo --cycles 1 --balls 300", script.string()), {}, work, 280.0));
   const bool with_lammps = post::has_lammps();
   if (!with_lammps) std::puts("SKIPPED: the demo in LAMMPS: LAMMPS is not set up (./drumlin setup lammps)");
   expect_in_order(outcome.output, demo_lines(with_lammps));

@@ -1,14 +1,5 @@
 // Hybrid pair styles, restitution and surfaces, against the engines' own laws and closed forms.
-#include "tests/support/checks.h"
-#include "tests/support/host_deck.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <sstream>
-#include <string>
-#include <tuple>
+#include "tests/support/engine_runs.h"
 
 namespace drumlin::test {
 namespace {
@@ -62,7 +53,7 @@ std::vector<std::string> in_lammps(const std::string &pair, int ranks) {
 }
 
 TEST(HybridPairStyle, GoesAsTheLawAloneInLammps) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  SKIP_WITHOUT_LAMMPS(true);
   const std::string law = "gran/hooke/transition tangential history", name = "gran/hooke/transition";
   const std::string coefficients = " 1e7 0.5 0.3\n";
   for (const int ranks : {1, 2}) {
@@ -106,7 +97,7 @@ std::vector<std::string> in_halves(const std::string &pair, const std::string &a
 // Pair style hybrid keeps no coefficients in restart files; settings and contact history are there, also if a
 // deck gives them again.
 TEST(HybridPairStyle, ContinuesFromARestartFileBitwiseInLammps) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  SKIP_WITHOUT_LAMMPS(true);
   const std::string law = "gran/hooke/transition tangential history transition A damping coefficient";
   const std::string alone = "pair_coeff * * 1e7 1e4 0.3\n";
   const std::string part = "pair_coeff * * gran/hooke/transition 1e7 1e4 0.3\n";
@@ -125,7 +116,7 @@ TEST(HybridPairStyle, ContinuesFromARestartFileBitwiseInLammps) {
 /// The second pair_style line of a deck replaces the first: its settings decide what the contact history
 /// contains.
 TEST(PairStyle, MayBeGivenAgainInLammps) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  SKIP_WITHOUT_LAMMPS(true);
   const std::string second =
       "pair_style gran/hooke/transition tangential history stepping stock transition A\n"
       "pair_coeff * * 1e7 0.5 0.3\n";
@@ -181,7 +172,7 @@ TEST_P(DampingRestitution, IsThatOfAnImpactInLiggghts) {
 }
 
 TEST_P(DampingRestitution, IsThatOfAnImpactInLammps) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  SKIP_WITHOUT_LAMMPS(true);
   for (const double e : {0.3, 0.7}) {
     const Scratch folder;
     write_text(folder / "lines",
@@ -308,12 +299,6 @@ std::string lattice_deck(bool flat, const std::string &sides) {
       "drumlin/density tops all layers 2 scale 0.5,0.5 0.2,0.2 0.5,1\nprint \"tops ${{tops}}\"\n",
       flat ? 2 : 3, sides, flat ? -0.1 : -0.4, flat ? 0.1 : 0.4, flat ? "sq" : "sc", flat ? 0.0 : 0.5,
       2.0 * radius * rows, 2.0 * radius * rows_of_lower);
-}
-
-double number_behind(const std::string &output, const std::string &mark) {
-  const std::size_t at = output.rfind(mark);
-  EXPECT_NE(at, std::string::npos) << mark << "\n" << output;
-  return at == std::string::npos ? NAN : std::strtod(output.c_str() + at + mark.size(), nullptr);
 }
 
 TEST(Density, OfLayersOfALatticeIsThatOfItsSections) {

@@ -6,21 +6,10 @@
 // a logger would store it, with a roller's file as a data sheet would give it. The program ends with status 1
 // if the intervals of all records together contain the truth in less than 93 or more than 97.5 %, if one is
 // beyond three half widths, or if more than 5 % of the records with right data are refused.
-#include "files/roller.h"
-#include "support/csv.h"
-#include "support/text.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/two_ends_oracle.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
-#include <random>
-#include <string>
-#include <vector>
+#include "files/roller.h"
+#include "support/text.h"
 
 namespace drumlin::test {
 namespace {

@@ -1,33 +1,16 @@
 // A report made from direct solutions: its pages are strict XML, and every link leads to a file.
-#include "pages/html.h"
-#include "report/report.h"
-
-#include "chain/exact_solution.h"
-#include "report/chain/page.h"
-#include "report/run_folder.h"
-#include "runs/chain_files.h"
-#include "support/files.h"
-#include "support/text.h"
-#include "support/usage_error.h"
-#include "tests/support/checks.h"
 #include "tests/support/page.h"
 #include "tests/support/run_folders.h"
 #include "tests/support/tool.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+#include "pages/html.h"
+#include "report/report.h"
+#include "chain/exact_solution.h"
+#include "report/chain/page.h"
+#include "report/run_folder.h"
+#include "support/text.h"
+#include "support/usage_error.h"
 
 #include <unistd.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <map>
-#include <memory>
-#include <regex>
 
 namespace {
 
@@ -444,7 +427,7 @@ TEST_F(Report, PrintsNoNumberThatIsNone) {
           "stored_bond,a1_cos,a1_sin,a2_cos,a2_sin,ah_cos,ah_sin\n"
           "0,0,0,0,0,0,0,0,0,0,0,0,0,0\n1,0,0,0,1,0,0,0,0,0,0,0,0,0\n2,0,0,0,1,0,0,0,0,0,0,0,0,0\n");
     std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
-    values.insert(values.end(), {{"deck", "chain"}, {"case", "II"}, {"engine", "a test"}});
+    values = with(values, given("deck chain, case II, engine a test"));
     write_files({{folder / "parameters.csv", parameters_text(values)}});
   }
   // An impact whose mass turns away before it reaches the ball.

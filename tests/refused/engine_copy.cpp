@@ -1,23 +1,12 @@
 #include "tests/refused/engine_copy.h"
-
-#include "tests/support/host_deck.h"
+#include "tests/support/engine_runs.h"
 
 #include <lammps.h>
 #include <input.h>
-
 #include <mpi.h>
-
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <array>
-#include <csignal>
-#include <cstdio>
-#include <cstdlib>
 #include <dlfcn.h>
-#include <list>
-#include <stdexcept>
-#include <string>
 
 namespace {
 

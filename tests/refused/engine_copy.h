@@ -2,9 +2,8 @@
 // begun MPI already: hundreds of decks that end in an error take as long as a few starts of the program.
 #pragma once
 
+#include "tests/support/prelude.h"
 #include "engine/engine_run.h"
-
-#include <filesystem>
 
 namespace drumlin::test {
 

@@ -1,11 +1,6 @@
 #include "tests/core/law_samples.h"
 #include "tests/refused/refusals.h"
-#include "tests/support/host_deck.h"
-
-#include <fmt/format.h>
-
-#include <cmath>
-#include <type_traits>
+#include "tests/support/engine_runs.h"
 
 namespace drumlin::test {
 namespace {

@@ -1,15 +1,5 @@
 #include "tests/refused/refusals.h"
-
-#include "tests/support/host_deck.h"
-#include "tests/support/lines.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <regex>
-#include <stdexcept>
+#include "tests/support/engine_runs.h"
 
 namespace drumlin::test {
 
@@ -18,12 +8,6 @@ namespace fs = std::filesystem;
 namespace {
 
 const fs::path folder = fs::path(DRUMLIN_SOURCE_DIR) / "tests/refused";
-
-std::string replaced(std::string text, const std::string &what, const std::string &by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-    text.replace(at, what.size(), by);
-  return text;
-}
 
 bool begins_with(const std::string &text, const std::string &word) { return text.rfind(word, 0) == 0; }
 
@@ -132,7 +116,7 @@ private:
              "'; allowed: {two ranks}, {in the run}, {engine's words}, {bare}, of tools {status 1}");
       line.erase(at);
     }
-    row.says = parts_of(whole(line));
+    row.says = parts_of(whole(line), " ... ");
     if (tools_) {
       if (begins_with(row.says[0], "... "))
         row.says[0].erase(0, 4), row.says.insert(row.says.begin(), command_);
@@ -205,15 +189,6 @@ private:
 };
 
 } // namespace
-
-std::vector<std::string> parts_of(const std::string &says) {
-  static const std::string between = " ... ";
-  const std::size_t end = says.find(between);
-  if (end == std::string::npos) return {says};
-  std::vector<std::string> parts = parts_of(says.substr(end + between.size()));
-  parts.insert(parts.begin(), says.substr(0, end));
-  return parts;
-}
 
 std::vector<std::string> refusal_tables(const std::vector<std::string> &folders) {
   std::vector<std::string> tables;

@@ -31,11 +31,7 @@
 // With DRUMLIN_REWRITE=1 a row of `tools` whose error line is another gets that line.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <utility>
-#include <vector>
+#include "tests/support/prelude.h"
 
 namespace drumlin::test {
 
@@ -68,8 +64,5 @@ void rewrite(const Refusal &refusal, const std::string &error);
 
 /// Every parameter of every law, left out and with values out of its range.
 std::vector<Refusal> law_refusals();
-
-/// The parts of an error line, with " ... " between them.
-std::vector<std::string> parts_of(const std::string &says);
 
 } // namespace drumlin::test

@@ -1,22 +1,9 @@
 // What the subcommands of drumlin refuse: tables of command lines, a file for each subcommand, each with the
 // one line that the program must print. Nothing is written, and the files of its folder stay as they are.
-#include "support/files.h"
-#include "support/process.h"
 #include "tests/refused/refusals.h"
 #include "tests/support/engine_runs.h"
-#include "tests/support/lines.h"
 #include "tests/support/run_folders.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <stdexcept>
-#include <string>
-#include <vector>
+#include "support/process.h"
 
 namespace drumlin::test {
 namespace {

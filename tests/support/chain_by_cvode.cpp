@@ -1,5 +1,4 @@
 #include "tests/support/chain_by_cvode.h"
-
 #include "runs/chain_files.h"
 
 #include <cvode/cvode.h>
@@ -7,19 +6,6 @@
 #include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <memory>
-#include <optional>
-#include <stdexcept>
-#include <type_traits>
-#include <utility>
 
 namespace drumlin::test {
 

@@ -4,6 +4,7 @@
 // event, because the contact force changes its law there.
 #pragma once
 
+#include "tests/support/prelude.h"
 #include "chain/exact_solution.h"
 #include "chain/parameters.h"
 

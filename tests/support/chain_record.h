@@ -1,14 +1,8 @@
 // A run of the chain: as the record of a roller, and how far two runs are apart.
 #pragma once
 
+#include "tests/support/prelude.h"
 #include "record/chain_record.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <vector>
 
 namespace drumlin::test {
 

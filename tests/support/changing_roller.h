@@ -2,12 +2,7 @@
 // step: it shares no code with the solvers of the tools.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <functional>
-#include <random>
-#include <vector>
+#include "tests/support/prelude.h"
 
 namespace drumlin::test {
 
@@ -32,9 +27,9 @@ struct SeenMotion {
 inline SeenMotion seen_motion(const ChangingRoller &r, double rate, double length, double noise,
                               unsigned seed) {
   using State = std::array<double, 5>; // x2, v2, x3, v3, angle of the exciter
-  const double c = 2.0 * r.D * std::sqrt(r.m2 * r.k(0.0)), pi = std::acos(-1.0);
+  const double c = 2.0 * r.D * std::sqrt(r.m2 * r.k(0.0)), two_pi = 2.0 * std::acos(-1.0);
   const auto slope = [&](double t, const State &s) {
-    const double omega = 2.0 * pi * r.frequency(t), k = r.k(t);
+    const double omega = two_pi * r.frequency(t), k = r.k(t);
     double soil = s[0] < 0.0 ? -k * s[0] - c * s[1] : 0.0;
     if (!r.pulls && soil < 0.0) soil = 0.0;
     const double bond = r.c23 * (s[3] - s[1]) + r.k23 * (s[2] - s[0]);

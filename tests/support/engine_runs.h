@@ -1,16 +1,12 @@
-// Runs of the stock engine for tests, and readers of their files.
+// Runs of the stock engine for tests, of decks, scenes and the host deck, and readers of their files.
 #pragma once
 
+#include "tests/support/checks.h"
 #include "chain/parameters.h"
 #include "engine/engine_run.h"
 #include "runs/chain_files.h"
+#include "support/csv.h"
 #include "support/files.h"
-
-#include <array>
-#include <filesystem>
-#include <map>
-#include <string>
-#include <vector>
 
 namespace drumlin::test {
 
@@ -108,5 +104,117 @@ double fitted_order(const std::vector<double> &steps, const std::vector<double> 
 
 /// Largest |a - b| over the largest |b|; infinite if the lengths differ.
 double relative_difference(const std::vector<double> &a, const std::vector<double> &b);
+
+/// A run of balls.in that has ended well.
+struct BallsRun {
+  std::vector<Frame> frames;
+  std::vector<post::ContactEvent> events;
+  std::vector<double> reaction; ///< what the fixed ball's fix reads along z, N, from the second frame on
+  std::string output;
+
+  /// A component of one ball over the frames.
+  std::vector<double> series(long id, std::array<double, 3> Ball::*part, std::size_t axis) const;
+};
+
+/// Runs balls.in in a folder of its own, with a triangle of z = 0 as floor.stl. Throws with the output if
+/// that fails.
+BallsRun run_balls(const Variables &variables, int ranks = 1);
+
+/// Writes triangles that cover x and y from -half_width to half_width in z = 0; one if `single`, which covers
+/// the middle.
+void write_floor(const std::filesystem::path &file, double half_width, bool single);
+
+/// "x y z" for a variable.
+std::string vector_text(double x, double y, double z);
+
+/// Largest distance of two states in position, m, over the frames; infinite if they have other steps or
+/// balls.
+inline double distance(const std::vector<Frame> &a, const std::vector<Frame> &b) {
+  if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    if (a[n].step != b[n].step || a[n].balls.size() != b[n].balls.size())
+      return std::numeric_limits<double>::infinity();
+    for (const auto &[id, ball] : a[n].balls)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        largest = std::max(largest, std::fabs(ball.x[axis] - b[n].balls.at(id).x[axis]));
+  }
+  return largest;
+}
+
+/// The pair style and pair_coeff of the host deck.
+std::string host_pair_style();
+/// A property for all pairs of the host's three types.
+std::string property(const std::string &name, const std::string &value);
+/// All properties that the contact law may ask for, but those that `text` gives itself.
+std::string host_properties(const std::string &text = "");
+
+/// Lines of the host deck of LIGGGHTS in which, between two runs, ball 4 gets the ID 1. \param lines before
+/// the first run
+std::string with_other_ids(const std::string &lines = "");
+
+/// Runs a deck with the plugin, output in a file; `words` follow the deck on the command line. Standard
+/// limit: 60 s.
+Outcome run_engine(const std::filesystem::path &deck, const std::vector<std::string> &words,
+                   const std::filesystem::path &folder, int ranks);
+
+/// The host deck, and the files that it reads: a pair style with properties, and the lines under test.
+extern const std::filesystem::path host_deck;
+void write_host(const std::string &pair, const std::string &lines, const std::filesystem::path &folder);
+
+/// Runs the host deck with a pair style (and properties) and the lines under test.
+Outcome run_host(const std::string &pair, const std::string &lines, const std::filesystem::path &folder,
+                 int ranks);
+
+/// Runs the host deck of LAMMPS, which has no pair style, with the lines under test.
+Outcome run_lammps_host(const std::string &lines, const std::filesystem::path &folder, int ranks);
+
+/// Environment with which MPI runs as root, with more ranks than cores, and several runs at once; its own
+/// files go to `folder`.
+std::vector<std::string> mpi_environment(const std::filesystem::path &folder);
+
+void write_text(const std::filesystem::path &file, const std::string &text);
+
+/// Runs a deck of inputs/soil in an engine and returns a table, by default that of the test: "biaxial" has
+/// in.biaxial(.lammps) and biaxial.csv. Throws std::runtime_error with the output of a run that fails.
+inline post::Table run_element_test(const std::string &engine, const std::string &name,
+                                    const Variables &variables, int ranks = 1, const std::string &file = "") {
+  const Scratch scratch;
+  const std::string deck = "../soil/in." + name + (engine == "lammps" ? ".lammps" : "");
+  well(run_deck(chain_deck(deck), variables, scratch.path(), ranks));
+  return post::read_table(scratch / (file.empty() ? name + ".csv" : file));
+}
+
+/// Ends a test as skipped where it needs LAMMPS, which is not set up.
+#define SKIP_WITHOUT_LAMMPS(needed)                                                                          \
+  if ((needed) && !post::has_lammps())                                                                       \
+  GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)"
+
+/// Tests in an engine, "liggghts" or "lammps"; skipped if LAMMPS is not set up.
+class InEngine : public ::testing::TestWithParam<std::string> {
+protected:
+  void SetUp() override { SKIP_WITHOUT_LAMMPS(GetParam() == "lammps"); }
+};
+
+/// Engine and stepping.
+class BothEngines : public ::testing::TestWithParam<std::tuple<std::string, std::string>> {
+protected:
+  void SetUp() override { SKIP_WITHOUT_LAMMPS(std::get<0>(GetParam()) == "lammps"); }
+
+  /// Runs the scene into the folder.
+  static Outcome run(const std::string &scene, const Scratch &folder, Variables variables = {}) {
+    const auto &[engine, stepping] = GetParam();
+    variables.emplace_back("stepping", stepping);
+    return run_scene(engine, scene, variables, folder.path());
+  }
+};
+
+inline auto engines_and_steppings() {
+  return ::testing::Combine(::testing::Values("liggghts", "lammps"), ::testing::Values("second", "stock"));
+}
+
+inline std::string engine_and_stepping(const ::testing::TestParamInfo<BothEngines::ParamType> &test) {
+  return std::get<0>(test.param) + "_" + std::get<1>(test.param);
+}
 
 } // namespace drumlin::test

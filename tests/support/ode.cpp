@@ -5,10 +5,6 @@
 #include <sundials/sundials_context.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include <stdexcept>
-#include <string>
-#include <utility>
-
 namespace oracle {
 
 struct Ode::Solver {

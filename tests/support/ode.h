@@ -1,10 +1,7 @@
 #pragma once
 /// An ordinary differential equation solved by SUNDIALS CVODE to tight tolerances: the oracle of these tests
 /// that shares no code with the core. It neither includes nor calls plugin/physics.
-
-#include <functional>
-#include <memory>
-#include <vector>
+#include "tests/support/prelude.h"
 
 namespace oracle {
 

@@ -1,9 +1,7 @@
 #pragma once
 /// Closed form of the damped oscillator m x'' + c x' + k x = 0 by its two complex roots (any damping but the
 /// critical one). Shares no code with the core.
-
-#include <cmath>
-#include <complex>
+#include "tests/support/prelude.h"
 
 namespace oracle {
 

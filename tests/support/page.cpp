@@ -1,13 +1,8 @@
 #include "tests/support/page.h"
-
+#include "tests/support/checks.h"
 #include "support/files.h"
-#include "tests/support/lines.h"
 
 #include <expat.h>
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <regex>
 
 namespace drumlin::test {
 

@@ -1,11 +1,7 @@
 // Reads a page as strict XML.
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
-#include <set>
-#include <string>
-#include <vector>
+#include "tests/support/prelude.h"
 
 namespace drumlin::test {
 

@@ -3,10 +3,9 @@
 // integration.
 #pragma once
 
+#include "tests/support/prelude.h"
 #include "chain/parameters.h"
 #include "runs/chain_files.h"
-
-#include <vector>
 
 namespace drumlin::test {
 

@@ -1,9 +1,5 @@
 #include "tests/support/sphere_impact.h"
-
 #include "chain/analysis.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace drumlin::test {
 

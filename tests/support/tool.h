@@ -3,16 +3,6 @@
 
 #include "tests/support/engine_runs.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace drumlin::test {
 
 /// While an object of this class lives, commands find a program in place of gnuplot that writes valid but

@@ -1,14 +1,8 @@
 // Energy of a drum with two ends, and where it comes from, along a motion of the tools' solver.
 #pragma once
 
+#include "tests/support/prelude.h"
 #include "chain/two_ends.h"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 
 namespace drumlin::test {
 

@@ -2,15 +2,8 @@
 // the tools, but their description of the machine.
 #pragma once
 
-#include "chain/two_ends.h"
 #include "tests/support/ode.h"
-
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <functional>
-#include <utility>
-#include <vector>
+#include "chain/two_ends.h"
 
 namespace drumlin::test {
 

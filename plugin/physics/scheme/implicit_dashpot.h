@@ -56,7 +56,7 @@ template <class Law>
 /// Whether a link's dashpot must be solved for together with the others of its balls: see CoupledDashpot.
 ///
 /// Solving for each link alone costs less and its dashpot force does not lag. It is stable up to 0.7 of the
-/// limit of the springs (searched in tests/core/time_step_test.cpp) if dt R <= 0.25, and also if
+/// limit of the springs (searched in tests/core/scheme_test.cpp) if dt R <= 0.25, and also if
 /// dt R <= 0.75 and dt^2 R k/c <= 0.5, which is far from the limit of the springs. R = sqrt(c) sum sqrt(c)/m
 /// is the sum of c/m, and R k/c that of k/m, where all contacts are alike. False for a link without a
 /// dashpot. \param all sum of sqrt(c)/m over all contacts of both balls, sqrt(N s/m)/kg

@@ -94,7 +94,7 @@ struct LinkModes {
 ///
 /// Second-order stepping solves for the normal dashpots (normal_dashpot = 0), so that only the springs limit
 /// the step. For packings it is not proved that no damping shortens this limit;
-/// tests/core/time_step_test.cpp searches for a counterexample.
+/// tests/core/scheme_test.cpp searches for a counterexample.
 class LoadedBall {
 public:
   /// Adds a link of the ball.

@@ -1,33 +1,15 @@
 // The report of bed runs: its numbers against those worked out by hand from small records, its pages as
 // strict XML.
+#include "tests/support/run_folders.h"
+#include "tests/support/page.h"
+#include "tests/support/tool.h"
 #include "report/bed/page.h"
-
 #include "chain/exact_solution.h"
 #include "report/answer.h"
 #include "report/bed/figures.h"
 #include "report/bed/measures.h"
 #include "report/report.h"
-#include "runs/chain_files.h"
-#include "support/files.h"
 #include "support/usage_error.h"
-#include "tests/support/checks.h"
-#include "tests/support/dump_texts.h"
-#include "tests/support/page.h"
-#include "tests/support/run_folders.h"
-#include "tests/support/tool.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <numeric>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace {
 
@@ -408,8 +390,8 @@ TEST_F(BedReport, IsOnOnePageWithChains) {
   write_files({{root / "chain" / "chain.csv", chain_text(direct.history)}});
   std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
   values.emplace_back("case", "II");
-  const std::vector<std::pair<std::string, std::string>> roller = {
-      {"roller", "mine"}, {"setting", "high"}, {"roller_frequency", "20"}, {"roller_static_load", "29430"}};
+  const std::vector<std::pair<std::string, std::string>> roller =
+      given("roller mine, setting high, roller_frequency 20, roller_static_load 29430");
   values.insert(values.end(), roller.begin(), roller.end());
   for (const auto &[name, value] : roller)
     std::ofstream(root / "A/parameters.csv", std::ios::app) << name << "," << value << "\n";

@@ -4,32 +4,10 @@
 //
 // Commands that continue are killed at random times, three times each; the environment variable DRUMLIN_KILLS
 // asks for another number, and DRUMLIN_SEED for the times of an earlier run, which has printed it.
-#include "engine/places.h"
-#include "support/files.h"
-#include "support/process.h"
-#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
-#include "tests/support/lines.h"
 #include "tests/support/run_folders.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <chrono>
-#include <csignal>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
-#include <memory>
-#include <ostream>
-#include <random>
-#include <regex>
-#include <sstream>
-#include <string>
-#include <vector>
+#include "engine/places.h"
+#include "support/process.h"
 
 namespace drumlin::test {
 namespace {
@@ -162,7 +140,7 @@ class Contract : public ::testing::TestWithParam<Command> {
 protected:
   static void SetUpTestSuite() {
     made_ = std::make_unique<Scratch>();
-    well(run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, made_->path()));
+    well(run_program(tool_words("exact --cycles 30 --out run"), {}, made_->path()));
     write_bed_run(*made_ / "bed", post::Transition::B);
     write_bed_dumps(*made_ / "bed");
     fs::remove(*made_ / post::program_output_file);
@@ -330,11 +308,10 @@ TEST(KilledStudyOfBeds, IsTheSame) {
 }
 
 /// A calibration on beds of 60 discs under a small roller, which takes some ten seconds.
-const std::vector<std::string> small_calibration = {
-    "calibrate", "--target", "k=1e6",   "--vary",        "k=2e6:2e7", "--seeds", "3",      "--balls",
-    "60",        "--cycles", "4",       "--evaluations", "3",         "--jobs",  "2",      "--out",
-    "out",       "--set",    "m2=100",  "--set",         "m3=50",     "--set",   "r2=0.1", "--set",
-    "r3=0.05",   "--set",    "k23=5e4", "--set",         "c23=500",   "--set",   "Fw=2940"};
+const std::vector<std::string> small_calibration =
+    words_of("calibrate --target k=1e6 --vary k=2e6:2e7 --seeds 3 --balls 60 --cycles 4 --evaluations 3 "
+             "--jobs 2 --out out --set m2=100 --set m3=50 --set r2=0.1 --set r3=0.05 --set k23=5e4 --set "
+             "c23=500 --set Fw=2940");
 
 TEST(KilledCalibration, IsTheSame) { kill_and_resume(small_calibration, expect_same); }
 
@@ -392,7 +369,7 @@ TEST(KilledEngine, EndsACalibrationThatContinues) {
 
 TEST(KilledReport, IsTheSame) {
   const Scratch scratch;
-  well(run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()));
+  well(run_program(tool_words("exact --cycles 30 --out run"), {}, scratch.path()));
   const std::string run = (scratch / "run").string();
   kill_and_resume({"report", run, "--out", "out"}, expect_same);
 }

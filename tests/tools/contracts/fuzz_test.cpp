@@ -5,26 +5,9 @@
 //
 // The number of a mutant is the seed of everything that is random in it: a failure names it, and the same
 // number gives the same damage.
-#include "runs/chain_files.h"
-#include "support/files.h"
-#include "support/process.h"
-#include "tests/support/damaged_files.h"
-#include "tests/support/engine_runs.h"
-#include "tests/support/lines.h"
 #include "tests/support/run_folders.h"
 #include "tests/support/tool.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <optional>
-#include <ostream>
-#include <string>
-#include <vector>
+#include "support/process.h"
 
 namespace drumlin::test {
 namespace {
@@ -68,20 +51,18 @@ Outcome run_vtk(const fs::path &folder, int /*mutant*/) {
 }
 
 Outcome run_advise(const fs::path &folder, int mutant) {
-  const std::vector<std::string> own = {"advise", "--from", "run", "--case", "II", "--k", "2e8"};
-  const std::vector<std::string> measured = {"advise", "--from",     "run",  "--case",
-                                             "IV",     "--stepping", "stock"};
+  const std::vector<std::string> own = words_of("advise --from run --case II --k 2e8");
+  const std::vector<std::string> measured = words_of("advise --from run --case IV --stepping stock");
   return run_tools(folder, mutant % 4 == 0 ? own : measured); // the first solves the chain seven times
 }
 
 Outcome run_exact(const fs::path &folder, int /*mutant*/) {
-  return run_tools(folder,
-                   {"exact", "--roller", "run/roller", "--setting", "low", "--cycles", "3", "--out", "out"});
+  return run_tools(folder, words_of("exact --roller run/roller --setting low --cycles 3 --out out"));
 }
 
 Outcome run_passes(const fs::path &folder, int /*mutant*/) {
   const SketchedPictures sketched;
-  return run_tools(folder, {"passes", "run", "--cell", "0.4", "--out", "out"});
+  return run_tools(folder, words_of("passes run --cell 0.4 --out out"));
 }
 
 void write_chain(const fs::path &folder) {
@@ -160,9 +141,9 @@ void write_roller(const fs::path &folder) {
 
 const std::vector<std::string> csv_files = {"chain.csv", "events.csv", "cycles.csv", "parameters.csv",
                                             "parameters.csv"};
-const std::vector<std::string> dump_files = {"dump/balls_0.vtp",       "dump/balls_800.vtp",
-                                             "dump/contacts_0.dump",   "dump/contacts_800.dump",
-                                             "dump/contacts_700.dump", "parameters.csv"};
+const std::vector<std::string> dump_files =
+    words_of("dump/balls_0.vtp dump/balls_800.vtp dump/contacts_0.dump dump/contacts_800.dump "
+             "dump/contacts_700.dump parameters.csv");
 
 const std::vector<Subject> &subjects() {
   static const std::vector<Subject> all = {
@@ -179,11 +160,9 @@ const std::vector<Subject> &subjects() {
        run_report},
       {"dumps", 100, write_bed, dump_files, run_report},
       {"vtk", 100, write_bed, dump_files, run_vtk},
-      {"passes",
-       150,
-       write_drive,
-       {"bed.csv", "cycles.csv", "parameters.csv", "dump/balls_0.dump", "dump/balls_4000.dump",
-        "dump/contacts_8000.dump"},
+      {"passes", 150, write_drive,
+       words_of("bed.csv cycles.csv parameters.csv dump/balls_0.dump dump/balls_4000.dump "
+                "dump/contacts_8000.dump"),
        run_passes},
       {"advise", 40, write_curves, {"chain.csv", "scaling.csv"}, run_advise},
       {"roller", 300, write_roller, {"roller"}, run_exact},

@@ -1,25 +1,9 @@
 // `drumlin identify` as a user meets it: the program itself, its files, its messages, its exit status.
-#include "chain/exact_solution.h"
-#include "runs/chain_files.h"
-#include "runs/parameter_file.h"
-#include "support/csv.h"
 #include "tests/support/changing_roller.h"
-#include "tests/support/checks.h"
-#include "tests/support/engine_runs.h"
-#include "tests/support/lines.h"
 #include "tests/support/page.h"
 #include "tests/support/tool.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <map>
-#include <random>
-#include <string>
-#include <tuple>
-#include <vector>
+#include "chain/exact_solution.h"
+#include "runs/parameter_file.h"
 
 namespace drumlin::test {
 namespace {
@@ -36,11 +20,9 @@ void write_run(const fs::path &folder, int cycles = 12) {
 
 /// A roller of the project without its tolerances, whose effect takes an identification each, and its chain
 /// on the soil of case II by hand.
-const std::vector<std::string> roller = {
-    "--roller",       (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers/CA3500").string(),
-    "--setting",      "low",
-    "--m2-tolerance", "0",
-    "--m3-tolerance", "0"};
+const std::vector<std::string> roller =
+    words_of("--roller {} --setting low --m2-tolerance 0 --m3-tolerance 0",
+             (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers/CA3500").string());
 post::ChainParameters low_CA3500() {
   post::ChainParameters p = post::table1_case("II", post::Transition::B);
   p.m2 = 3955;
@@ -71,9 +53,9 @@ TEST_F(IdentifyCommand, TellsTheSoilBelowEachHalf) {
   post::write_files(
       {{scratch_ / "soil.csv", "y (m),k (N/m),c (N s/m)\n-0.6148,24e6,6e4\n0.6148,16e6,5e4\n"}});
   const std::string axas = (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers/Axas2020").string();
-  well(run_program({DRUMLIN_TOOLS, "exact", "--roller", axas, "--contacts", "soil.csv", "--cycles", "35",
-                    "--samples-per-cycle", "40", "--out", "run"},
-                   {}, scratch_.path(), 100.0));
+  well(run_program(
+      tool_words("exact --roller {} --contacts soil.csv --cycles 35 --samples-per-cycle 40 --out run", axas),
+      {}, scratch_.path(), 100.0));
   const post::Table run = post::read_table(scratch_ / "run/chain.csv");
   std::string measured = "t,L,R,F\n";
   for (std::size_t i = 800; i < run.rows(); ++i) {
@@ -83,8 +65,7 @@ TEST_F(IdentifyCommand, TellsTheSoilBelowEachHalf) {
     measured += post::csv_line(cells);
   }
   post::write_files({{scratch_ / "two.csv", measured}});
-  const std::vector<std::string> sensors = {"--column", "time=t",   "--column",
-                                            "a_left=L", "--column", "a_right=R"};
+  const std::vector<std::string> sensors = words_of("--column time=t --column a_left=L --column a_right=R");
   const auto with = [](std::vector<std::string> words, const std::vector<std::string> &more) {
     words.insert(words.end(), more.begin(), more.end());
     return words;
@@ -110,8 +91,7 @@ TEST_F(IdentifyCommand, TellsTheSoilBelowEachHalf) {
                                                                   "exciter_place 2 cm\n"
                                                                   "exciter_place_tolerance 2 cm\n")}});
   draw();
-  well(
-      identify(with(file, {"--column", "a_frame=F", "--roller", "aside", "--phase", "0", "--out", "found"})));
+  well(identify(with(file, words_of("--column a_frame=F --roller aside --phase 0 --out found"))));
   for (const char *made : {"index.html", "data/halves.csv", "figures/halves.png"})
     EXPECT_TRUE(fs::is_regular_file(scratch_ / "found" / made)) << made;
   const post::Table aside = post::read_table(scratch_ / "found/identify.csv");
@@ -123,8 +103,8 @@ TEST_F(IdentifyCommand, TellsTheSoilBelowEachHalf) {
     EXPECT_LT(off, 1.2 * std::hypot(within, noise));
   }
   const std::vector<std::string> out = {"--out", "results"};
-  const std::vector<std::string> plain = {"--frequency", "29",   "--me-re", "7.31", "--m2",     "3962.07",
-                                          "--m3",        "3379", "--phase", "0",    "--column", "a_frame=F"};
+  const std::vector<std::string> plain =
+      words_of("--frequency 29 --me-re 7.31 --m2 3962.07 --m3 3379 --phase 0 --column a_frame=F");
   expect_refused(with(with(file, plain), out), "two.csv: drum_inertia is ''; allowed: --roller with a file");
   expect_refused(with(with({"two.csv", "--column", "time=t", "--column", "a_left=L"}, roller_said), out),
                  "two.csv: a_right is ''; allowed: sensors at both ends of the drum");
@@ -134,8 +114,7 @@ TEST_F(IdentifyCommand, TellsTheSoilBelowEachHalf) {
                  "--logger-low-pass is '200,4'; allowed: not given for a record of both ends");
   // Sensors that are mixed up, or one that is turned: no motion of this machine.
   expect_refused(
-      with(with({"two.csv", "--column", "time=t", "--column", "a_left=L", "--column", "a_right=R:-m/s2"},
-                roller_said),
+      with(with(words_of("two.csv --column time=t --column a_left=L --column a_right=R:-m/s2"), roller_said),
            out),
       "");
 }
@@ -163,13 +142,12 @@ TEST_F(IdentifyCommand, WritesAnswerTableAndPage) {
 TEST_F(IdentifyCommand, TakesAPartOfTheWay) {
   post::write_files(
       {{scratch_ / "way", "s (m),k (N/m),D (-)\n0,2e7,0.25\n6,2e7,0.25\n6,4e7,0.25\n12,4e7,0.25\n"}});
-  well(run_program({DRUMLIN_TOOLS, "exact", "--case", "II", "--transition", "B", "--way", "way", "--speed",
-                    "2", "--passes", "2", "--out", "driven"},
+  well(run_program(tool_words("exact --case II --transition B --way way --speed 2 --passes 2 --out driven"),
                    {}, scratch_.path()));
   for (const char *pass : {"1", "2"})
     for (const auto &[from, to, k] : {std::tuple{"1", "5.9", 2e7}, {"6.1", "11", 4e7}}) {
       const Outcome outcome =
-          identify({"driven", "--from-place", from, "--to-place", to, "--of-pass", pass, "--window", "1m"});
+          identify(words_of("driven --from-place {} --to-place {} --of-pass {} --window 1m", from, to, pass));
       well(outcome);
       EXPECT_TRUE(printed(outcome, "A window averages the soil over"));
       EXPECT_TRUE(printed(outcome, "falls to a hundredth"));
@@ -202,8 +180,8 @@ TEST_F(IdentifyCommand, KnowsTheOriginOfItsOwnRunsAlone) {
     x += 0.75;
   post::write_files({{scratch_ / "run/chain.csv", post::chain_text(history)}});
   fs::remove(scratch_ / "run/parameters.csv");
-  const std::vector<std::string> own = {"run",          "--frequency", "20",          "--m2",
-                                        noted.at("m2"), "--m3",        noted.at("m3")};
+  const std::vector<std::string> own =
+      words_of("run --frequency 20 --m2 {} --m3 {}", noted.at("m2"), noted.at("m3"));
   std::vector<std::string> words = own;
   words.insert(words.end(), {"--origin", "known"});
   expect_refused(words, "; to be checked: ");
@@ -225,8 +203,8 @@ TEST_F(IdentifyCommand, AnswersForOneSettingOfTheExciter) {
                             post::number_text(seen.a_frame[i])});
   post::write_files({{scratch_ / "pass.csv", text}});
   const auto k_of = [&](const std::vector<std::string> &more, const char *said) {
-    std::vector<std::string> words = {"pass.csv", "--frequency", "31",    "--m2",    "3955", "--m3",
-                                      "3713",     "--out",       "found", "--phase", "0"};
+    std::vector<std::string> words =
+        words_of("pass.csv --frequency 31 --m2 3955 --m3 3713 --out found --phase 0");
     words.insert(words.end(), more.begin(), more.end());
     EXPECT_TRUE(printed(well(identify(words)), said));
     EXPECT_TRUE(contains(post::read_text(scratch_ / "found/index.html"), said));
@@ -269,28 +247,11 @@ TEST_F(IdentifyCommand, ReadsAMeasuredRecord) {
     text += post::csv_line(
         {post::number_text(-in_g * history.a_drum[i]), post::number_text(in_g * history.a_frame[i])});
   post::write_files({{scratch_ / "measured.csv", text}});
-  EXPECT_TRUE(printed(well(identify({"measured.csv",
-                                     "--column",
-                                     "a_drum=Acc drum:-g",
-                                     "--column",
-                                     "a_frame=Acc frame:g",
-                                     "--sampling-rate",
-                                     "4000",
-                                     "--frequency",
-                                     "40",
-                                     "--phase",
-                                     "0",
-                                     "--phase-within",
-                                     "1",
-                                     "--Fw",
-                                     "58800",
-                                     "--m2",
-                                     "2000",
-                                     "--m3",
-                                     "1000",
-                                     "--out",
-                                     "found"})),
-                      "The contact pulls (transition A)"));
+  EXPECT_TRUE(printed(
+      well(identify(words_of("measured.csv --column {} --column {} --sampling-rate 4000 --frequency 40 "
+                             "--phase 0 --phase-within 1 --Fw 58800 --m2 2000 --m3 1000 --out found",
+                             "a_drum=Acc drum:-g", "a_frame=Acc frame:g"))),
+      "The contact pulls (transition A)"));
   const post::Table table = post::read_table(scratch_ / "found/identify.csv");
   EXPECT_NEAR(table.numbers("k [N/m]").front(), p.k, 1e-3 * p.k);
   EXPECT_NEAR(table.numbers("c [N s/m]").front(), p.damping(), 3e-3 * p.damping());
@@ -319,8 +280,8 @@ TEST_F(IdentifyCommand, ShowsWhatTolerancesOfTheMachineDo) {
                            "bond_damping 31 kN s/m\ndrum_mass_tolerance 1 %\nfrequency 30 Hz\nforce 100 kN\n";
   post::write_files({{scratch_ / "measured.csv", text}, {scratch_ / "mine", file}});
   const auto machine = [&](const std::vector<std::string> &more, const char *column) {
-    std::vector<std::string> words = {"measured.csv",   "--roller", "mine",  "--phase", "0",
-                                      "--phase-within", "0",        "--out", "found"};
+    std::vector<std::string> words =
+        words_of("measured.csv --roller mine --phase 0 --phase-within 0 --out found");
     words.insert(words.end(), more.begin(), more.end());
     well(identify(words));
     return std::stod(
@@ -329,7 +290,7 @@ TEST_F(IdentifyCommand, ShowsWhatTolerancesOfTheMachineDo) {
   EXPECT_NEAR(machine({}, "k_machine [N/m]"), 1.42122e6, 8e3);
   EXPECT_NEAR(machine({}, "c_machine [N s/m]"), 0.0, 50.0);
   EXPECT_NEAR(machine({"--m2-tolerance", "2"}, "k_machine [N/m]"), 2.84245e6, 16e3);
-  expect_refused({"measured.csv", "--roller", "mine", "--phase", "0", "--m2-tolerance", "-1"},
+  expect_refused(words_of("measured.csv --roller mine --phase 0 --m2-tolerance -1"),
                  "--m2-tolerance is '-1'; allowed: ");
 }
 
@@ -347,9 +308,10 @@ TEST_F(IdentifyCommand, ShowsWhatTolerancesDoWhereTheDrumFlies) {
                             post::number_text(history.a_frame[i] + 0.1 * noise(random))});
   post::write_files({{scratch_ / "measured.csv", text}});
   const auto found = [&](double mass) {
-    well(identify({"measured.csv", "--frequency", post::number_text(p.omega / 6.283185307179586), "--phase",
-                   "0", "--Fw", post::number_text(p.Fw), "--m2", post::number_text(mass), "--m3",
-                   post::number_text(p.m3), "--m2-tolerance", "1", "--out", "found"}));
+    well(identify(
+        words_of("measured.csv --frequency {} --phase 0 --Fw {} --m2 {} --m3 {} --m2-tolerance 1 --out found",
+                 post::number_text(p.omega / 6.283185307179586), post::number_text(p.Fw),
+                 post::number_text(mass), post::number_text(p.m3))));
     return post::read_table(scratch_ / "found/identify.csv");
   };
   const post::Table said = found(p.m2), other = found(1.01 * p.m2);

@@ -1,30 +1,12 @@
 // `drumlin meter` as a user meets it: records of runs and measured ones, and records that it refuses in one
 // line.
-#include "meter/along_way.h"
-#include "runs/chain_files.h"
-#include "support/csv.h"
-#include "support/files.h"
-#include "runs/parameter_file.h"
-#include "support/measured_table.h"
-#include "support/process.h"
-#include "tests/support/checks.h"
-#include "tests/support/engine_runs.h"
-#include "tests/support/lines.h"
 #include "tests/support/ode.h"
 #include "tests/support/run_folders.h"
 #include "tests/support/tool.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <filesystem>
-#include <optional>
-#include <regex>
-#include <string>
-#include <vector>
+#include "meter/along_way.h"
+#include "runs/parameter_file.h"
+#include "support/measured_table.h"
+#include "support/process.h"
 
 namespace drumlin::test {
 namespace {
@@ -53,8 +35,8 @@ protected:
 TEST_F(MeterCommand, TakesTheDrumOfARollerFile) {
   write_files({{folder_ / "mine", "drum_load 7000 kg\nwidth 2.13 m\ndiameter 1.5 m\nfrequency 29 Hz\n"
                                   "force 256 kN\namplitude 1.8 mm\n"}});
-  const std::vector<std::string> exact = {DRUMLIN_TOOLS, "exact", "--roller", "mine", "--k",   "45e6",
-                                          "--D",         "0.25",  "--cycles", "60",   "--out", "run"};
+  const std::vector<std::string> exact =
+      tool_words("exact --roller mine --k 45e6 --D 0.25 --cycles 60 --out run");
   ASSERT_TRUE(run_program(exact, {}, folder_).ok());
   const ChainHistory history = read_chain(folder_ / "run/chain.csv");
   std::string text = "time,x_drum,a_drum,a_frame\n";
@@ -72,8 +54,8 @@ TEST_F(MeterCommand, TakesTheDrumOfARollerFile) {
   };
   const double me_re = 256e3 / std::pow(58.0 * M_PI, 2), m2 = me_re / 1.8e-3;
   const auto by_hand =
-      values({"--frequency", "29", "--me-re", number_text(me_re), "--m2", number_text(m2), "--m3",
-              number_text(7000.0 - m2), "--drum-radius", "0.75", "--drum-width", "2.13"});
+      values(words_of("--frequency 29 --me-re {} --m2 {} --m3 {} --drum-radius 0.75 --drum-width 2.13",
+                      number_text(me_re), number_text(m2), number_text(7000.0 - m2)));
   const auto by_file = values({"--roller", "mine"});
   EXPECT_NEAR(by_file.first / by_hand.first, 1.0, 1e-9);
   EXPECT_NEAR(by_file.second / by_hand.second, 1.0, 1e-9);
@@ -99,9 +81,8 @@ TEST_F(MeterCommand, AtOneEndOfADrumThatTiltsShowsTheSoilOfThatEnd) {
                                           csv_line({number_text(-b), "9e6", number_text(0.6 * c)}) +
                                           csv_line({number_text(b), "6e6", number_text(0.4 * c)})}});
   const std::string roller = DRUMLIN_SOURCE_DIR "/inputs/rollers/Axas2020";
-  well(run_program({DRUMLIN_TOOLS, "exact", "--roller", roller, "--contacts", "soil.csv", "--cycles", "300",
-                    "--out", "run"},
-                   {}, folder_));
+  well(run_program(tool_words("exact --roller {} --contacts soil.csv --cycles 300 --out run", roller), {},
+                   folder_));
   for (const auto &[sensor, stiffness] :
        {std::pair("a_left", 18.29), {"a_drum", 14.97}, {"a_right", 11.73}}) {
     well(meter({"run", "--column", std::string("a_drum=") + sensor, "--column", "a_frame=a_frame"}));
@@ -132,9 +113,8 @@ TEST_F(MeterCommand, AtOneEndDependsOnHowTheRollerComesBack) {
       {{folder_ / "way.csv", "s (m),k_left (N/m),k_right (N/m),D (-)\n0,9e6,6e6,0.2\n20,9e6,6e6,0.2\n"}});
   for (const bool turns : {false, true}) {
     const std::string roller = DRUMLIN_SOURCE_DIR "/inputs/rollers/Axas2020";
-    std::vector<std::string> words = {DRUMLIN_TOOLS, "exact", "--roller", roller,    "--contacts",
-                                      "2",           "--way", "way.csv",  "--speed", "4",
-                                      "--passes",    "2",     "--out",    "run"};
+    std::vector<std::string> words =
+        tool_words("exact --roller {} --contacts 2 --way way.csv --speed 4 --passes 2 --out run", roller);
     if (turns) words.emplace_back("--turn-round");
     well(run_program(words, {}, folder_));
     for (const int pass : {1, 2}) {
@@ -154,10 +134,10 @@ TEST_F(MeterCommand, AtOneEndDependsOnHowTheRollerComesBack) {
 TEST_F(MeterCommand, AContactThatPullsUnderAIsUnbroken) {
   const std::string roller = DRUMLIN_SOURCE_DIR "/inputs/rollers/Axas2020";
   for (const bool lifts : {false, true}) {
-    well(run_program({DRUMLIN_TOOLS, "exact", "--roller", roller, "--contacts", "4", "--transition", "A",
-                      "--k", lifts ? "45e6" : "20e6", "--D", lifts ? "0.2" : "0.5", "--cycles", "300",
-                      "--out", "run"},
-                     {}, folder_));
+    well(run_program(
+        tool_words("exact --roller {} --contacts 4 --transition A --k {} --D {} --cycles 300 --out run",
+                   roller, lifts ? "45e6" : "20e6", lifts ? "0.2" : "0.5"),
+        {}, folder_));
     const ChainHistory h = read_chain(folder_ / "run/chain.csv");
     EXPECT_LT(*std::min_element(h.F_left.end() - 200, h.F_left.end()), lifts ? 0.0 : -1.5e4);
     EXPECT_EQ(std::count(h.F_left.end() - 200, h.F_left.end(), 0.0) > 0, lifts);
@@ -184,8 +164,8 @@ TEST_F(MeterCommand, OfARunTakesTheDrumsSizeAlone) {
   EXPECT_NE(values({"--roller", "mine", "--m2", "3000"}), values({"--roller", "mine"}));
 }
 
-const std::vector<std::string> as_measured = {"--column",        "time=Time:ms", "--column",
-                                              "a_drum=Acc Z:-g", "--frequency",  "29"};
+const std::vector<std::string> as_measured =
+    words_of("--column time=Time:ms --column {} --frequency 29", "a_drum=Acc Z:-g");
 
 // Whatever the name: no result replaces the record, or another result.
 // Far behind a step of the soil a roller that drives shows what one that stands there does; a window of half
@@ -196,7 +176,7 @@ TEST_F(MeterCommand, TakesWindowsByDistanceAlongTheWay) {
     words.insert(words.begin(), {DRUMLIN_TOOLS, "exact", "--case", "II", "--transition", "B"});
     well(run_program(words, {}, folder_));
   };
-  exact({"--way", "way", "--speed", "1", "--passes", "2", "--out", "driven"});
+  exact(words_of("--way way --speed 1 --passes 2 --out driven"));
   const ChainHistory history = read_chain(folder_ / "driven/chain.csv");
   const double frequency =
       std::stod(read_parameters(folder_ / "driven/parameters.csv").at("omega")) / (2.0 * M_PI);
@@ -204,12 +184,12 @@ TEST_F(MeterCommand, TakesWindowsByDistanceAlongTheWay) {
     const char *from, *to, *pass, *k;
   };
   for (const Part &part : {Part{"5", "8", "1", "2e7"}, {"13", "16", "1", "4e7"}, {"0", "3", "2", "2e7"}}) {
-    exact({"--k", part.k, "--D", "0.25", "--cycles", "80", "--out", "stands"});
+    exact(words_of("--k {} --D 0.25 --cycles 80 --out stands", part.k));
     well(meter({"stands"}));
     const Table standing = read_table(folder_ / "results/meter/meter.csv");
     EXPECT_EQ(standing.header().back(), "stiffness"); // no places
-    const Outcome outcome = meter({"driven", "--from-place", part.from, "--to-place", part.to, "--of-pass",
-                                   part.pass, "--window", "0.5m"});
+    const Outcome outcome = meter(words_of("driven --from-place {} --to-place {} --of-pass {} --window 0.5m",
+                                           part.from, part.to, part.pass));
     well(outcome);
     const Table driven = read_table(folder_ / "results/meter/meter.csv");
     const std::vector<double> begin = driven.numbers("s_begin [m]"), end = driven.numbers("s_end [m]");
@@ -341,12 +321,12 @@ TEST_F(MeterCommand, BedPerMetre) {
   write_files(
       {{folder_ / "bed/bed.csv", bed}, {folder_ / "bed/parameters.csv", parameters("dimension,2\n")}});
   EXPECT_NEAR(E_vib("bed") / whole, 1.0, 0.05);
-  EXPECT_TRUE(meter({"bed", "--drum-radius", "0.759", "--drum-width", "2.13", "--out", "m"})
+  EXPECT_TRUE(meter(words_of("bed --drum-radius 0.759 --drum-width 2.13 --out m"))
                   .says("Forces, energy and stiffnesses are those of 1 m of the drum; for E_vib the force is "
                         "that of the whole drum, 2.13 m wide."));
   // Of a bed in three dimensions of unknown thickness it cannot be told.
   write_files({{folder_ / "bed/parameters.csv", parameters("dimension,3\n")}});
-  well(meter({"bed", "--drum-radius", "0.759", "--drum-width", "2.13", "--out", "m"}));
+  well(meter(words_of("bed --drum-radius 0.759 --drum-width 2.13 --out m")));
   EXPECT_TRUE(read_table(folder_ / "m/meter.csv").text("E_vib [Pa]").back().empty());
 }
 
@@ -418,7 +398,7 @@ TEST_F(MeterCommand, ShowsWhatItUnderstands) {
   EXPECT_TRUE(fs::exists(folder_ / "results/meter/figures/first_second.png"));
   EXPECT_FALSE(fs::exists(folder_ / "results/meter/meter.csv"));
   // A column by its number; a frequency is not needed.
-  EXPECT_EQ(meter({"gap.csv", "--show", "--column", "time=1:ms", "--column", "a_drum=2:-g"}).status, 0);
+  EXPECT_EQ(meter(words_of("gap.csv --show --column time=1:ms --column a_drum=2:-g")).status, 0);
 }
 
 TEST_F(MeterCommand, ShowsAGuessWhereNoNameIsKnown) {

@@ -1,19 +1,11 @@
 // ./drumlin vtk on dumps written by hand: its files, and its messages on files that are no dumps.
+#include "tests/support/run_folders.h"
+#include "tests/support/tool.h"
 #include "bed/coarse_graining.h"
 #include "bed/dump_readers.h"
-#include "runs/chain_files.h"
-#include "support/files.h"
 #include "support/process.h"
-#include "tests/support/checks.h"
-#include "tests/support/dump_texts.h"
-#include "tests/support/engine_runs.h"
-#include "tests/support/lines.h"
-#include "tests/support/tool.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -23,15 +15,6 @@
 #include <vtkPolyData.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <optional>
-#include <regex>
-#include <string>
-#include <vector>
 
 namespace drumlin::test {
 namespace {

@@ -1,19 +1,9 @@
 // The command that starts an engine, and the links used in place of folders with blanks in their names.
+#include "tests/support/engine_runs.h"
 #include "engine/engine_command.h"
 #include "engine/places.h"
 #include "engine/plain_path.h"
 #include "support/usage_error.h"
-
-#include "tests/support/engine_runs.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <vector>
 
 #include <unistd.h>
 
@@ -119,7 +109,7 @@ TEST(EngineCommand, OfOneRankAndOfTwo) {
 }
 
 TEST(EngineCommand, OfADeckForLammpsGetsThePlugin) {
-  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  SKIP_WITHOUT_LAMMPS(true);
   EXPECT_EQ(post::engine_of("a/b.lammps"), Engine::lammps);
   EXPECT_EQ(post::engine_of("a.lammps/b"), Engine::liggghts);
   const fs::path deck = chain_deck("in.chain.lammps");

@@ -1,19 +1,11 @@
 // Plans: what a file says, each bad line, and the four plans of the project.
+#include "tests/support/prelude.h"
 #include "experiment/plan.h"
-
 #include "engine/deck_run.h"
 #include "experiment/results.h"
 #include "support/files.h"
 #include "support/resumed.h"
 #include "support/usage_error.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <set>
-#include <string>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -88,7 +80,7 @@ TEST_F(PlanTest, GivesEachSceneWhatItsLinesAndTheSceneAboveSay) {
   ASSERT_EQ(plan.scenes.size(), 4U);
   const Scene &wider = plan.scene("wider");
   EXPECT_EQ(wider.deck, (temporary_.path() / "in.own").string());
-  EXPECT_EQ(post::variables_of(wider, SceneDeck::run), (Variables{{"gap", "3"}, {"name", "a#b"}}));
+  EXPECT_EQ(post::variables_of(wider, SceneDeck::run), (given("gap 3, name a#b")));
   EXPECT_EQ(plan.scene("wide / 10").at.at("gap"), 2.0);
   EXPECT_TRUE(wider.at.empty()); // else a figure has it as a further seed of the scene above
   EXPECT_EQ(plan.scene("slow").at.at("gap"), 1.0);
@@ -293,12 +285,9 @@ TEST_F(PlanTest, GivesEachDeckOfABedItsVariables) {
            "scene one\nscene hard\nfrom one\nset_run rolling 0.2\nstiffness 1e9\nfrequency 40\n"
            "scene dense\nfrom hard\nset k 1e8,1e9\nmore_steps 2\nlayer 0.2\nlayer 0.3\n");
   const Scene &one = plan.scene("one"), &hard = plan.scene("hard"), &dense = plan.scene("dense");
-  EXPECT_EQ(post::variables_of(one, SceneDeck::settle),
-            (Variables{{"pour_friction", "0.8"}, {"rolling", "0.1"}, {"ratio", "0.5"}}));
-  EXPECT_EQ(post::variables_of(one, SceneDeck::place),
-            (Variables{{"drum", "clump"}, {"rolling", "0.1"}, {"ratio", "0.5"}}));
-  EXPECT_EQ(post::variables_of(one, SceneDeck::run),
-            (Variables{{"cycles", "4"}, {"drum", "clump"}, {"rolling", "0.1"}}));
+  EXPECT_EQ(post::variables_of(one, SceneDeck::settle), (given("pour_friction 0.8, rolling 0.1, ratio 0.5")));
+  EXPECT_EQ(post::variables_of(one, SceneDeck::place), (given("drum clump, rolling 0.1, ratio 0.5")));
+  EXPECT_EQ(post::variables_of(one, SceneDeck::run), (given("cycles 4, drum clump, rolling 0.1")));
   // Case gravel has 8000 steps per cycle of 20 Hz for these balls and this stiffness.
   EXPECT_EQ(post::value_of(hard, "rolling"), "0.2");
   EXPECT_EQ(post::value_of(hard, "k"), "1e+09");

@@ -1,24 +1,12 @@
 // Quantities of records that are known, and effects against numbers worked out by hand.
+#include "tests/support/page.h"
 #include "experiment/results.h"
-
 #include "chain/exact_solution.h"
 #include "runs/chain_files.h"
 #include "experiment/page.h"
 #include "support/files.h"
 #include "support/resumed.h"
 #include "runs/parameter_file.h"
-#include "tests/support/page.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <filesystem>
-#include <limits>
-#include <optional>
-#include <string>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -33,10 +21,10 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 // Student's t of 97.5 % for one and for two degrees of freedom
 constexpr double t_1 = 12.706204736174698, t_2 = 4.302652729911275;
 
-std::vector<double> values_of(const std::vector<const char *> &names, const fs::path &folder, double width) {
+std::vector<double> values_of(const std::vector<std::string> &names, const fs::path &folder, double width) {
   std::vector<post::Quantity> quantities;
   quantities.reserve(names.size());
-  for (const char *name : names)
+  for (const std::string &name : names)
     quantities.push_back(*post::named_quantity(name));
   return post::measured(quantities, folder, width);
 }
@@ -52,8 +40,8 @@ TEST(Quantities, OfABedAreOfTheSecondHalfAndPerMetreOfWidth) {
                                          "3,20,200,0.5,0.65\n"
                                          "4,30,600,1,0.8\n"},
        {temporary.path() / "parameters.csv", "name,value\ndrum_depth,-0.07\nr2,0.35\n"}});
-  const std::vector<const char *> names = {"acceleration",     "force", "settlement", "contact",
-                                           "total_settlement", "depth"};
+  const std::vector<std::string> names =
+      words_of("acceleration force settlement contact total_settlement depth");
   const std::vector<double> plane = values_of(names, temporary.path(), 1.0);
   EXPECT_DOUBLE_EQ(plane[0], 25.0);
   EXPECT_DOUBLE_EQ(plane[1], 400.0);
@@ -146,11 +134,10 @@ TEST(Quantities, OfTheLawAreThoseOfARecordWithKnownLaw) {
     const fs::path &folder = temporary.path();
     post::write_files(
         {{folder / "bed.csv", post::chain_text(history)},
-         {folder / "parameters.csv", post::parameters_text({{"omega", post::number_text(p.omega)},
-                                                            {"Fw", post::number_text(p.Fw)},
-                                                            {"m2", post::number_text(p.m2)},
-                                                            {"m3", post::number_text(p.m3)},
-                                                            {"g", post::number_text(p.g)}})}});
+         {folder / "parameters.csv",
+          post::parameters_text(given("omega {}, Fw {}, m2 {}, m3 {}, g {}", post::number_text(p.omega),
+                                      post::number_text(p.Fw), post::number_text(p.m2),
+                                      post::number_text(p.m3), post::number_text(p.g)))}});
     const std::vector<double> found = values_of({"k", "D", "R2"}, folder, 2.0);
     EXPECT_NEAR(found[0], p.k / 2.0, 1e-3 * p.k) << name; // per metre
     EXPECT_NEAR(found[1], p.D, 1e-3 * p.D) << name;

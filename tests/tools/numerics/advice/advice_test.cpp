@@ -1,28 +1,11 @@
+#include "tests/support/tool.h"
 #include "advice/bed.h"
 #include "advice/steps.h"
 #include "engine/deck_run.h"
 #include "experiment/plan.h"
-#include "runs/chain_files.h"
-#include "support/files.h"
 #include "support/process.h"
 #include "support/resumed.h"
 #include "support/usage_error.h"
-
-#include "tests/support/checks.h"
-#include "tests/support/engine_runs.h"
-#include "tests/support/lines.h"
-#include "tests/support/tool.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <limits>
-#include <sstream>
-#include <string>
-#include <vector>
 
 #include <unistd.h>
 
@@ -401,10 +384,10 @@ protected:
 };
 
 TEST_F(AdviseCommand, AnswersFromTheStudyThatComesWithTheProject) {
-  const Outcome outcome = run({"--error", "1e-3", "--case", "II", "--transition", "B"});
+  const Outcome outcome = run(words_of("--error 1e-3 --case II --transition B"));
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   EXPECT_EQ(outcome.output.find("200 steps per cycle"), 0u) << outcome.output;
-  const Outcome other = run({"--error", "1e-3", "--D", "0.4", "--stepping", "stock", "--measure", "force"});
+  const Outcome other = run(words_of("--error 1e-3 --D 0.4 --stepping stock --measure force"));
   EXPECT_EQ(other.status, 0) << other.output;
   EXPECT_TRUE(printed(other, {"tested on 12 other parameter sets", "-var D 0.4 -var stepping stock"}));
   EXPECT_FALSE(other.says("outside")) << other.output;
@@ -421,7 +404,7 @@ TEST_F(AdviseCommand, TakesTheErrorOfASettlementInMillimetres) {
   write_files({{folder_ / "plan", "scaled_to 400\n" + read_text(input_file("study/fidelity/plan"))},
                {folder_ / "runs.csv", rows}});
   const auto ask = [this](const std::string &within) {
-    return run({"--bed", "--from", ".", "--question", "settlement", "--within", within});
+    return run(words_of("--bed --from . --question settlement --within {}", within));
   };
   const Outcome wide = ask("0.6mm"), narrow = ask("0.4mm");
   EXPECT_EQ(wide.output.find("k / 10: "), 0u) << wide.output;

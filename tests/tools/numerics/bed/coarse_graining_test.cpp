@@ -1,13 +1,7 @@
 // Coarse-grained fields of a bed: lattices and columns whose fields are known, and quantities that must be
 // conserved in any bed.
+#include "tests/support/prelude.h"
 #include "bed/coarse_graining.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-#include <stdexcept>
-#include <vector>
 
 namespace drumlin::test {
 namespace {

@@ -1,26 +1,11 @@
 // Calibration with closed forms in the place of beds: the parameters that were put in must be found again.
+#include "tests/support/chain_record.h"
+#include "tests/support/engine_runs.h"
 #include "calibration/calibration.h"
 #include "calibration/search.h"
 #include "chain/exact_solution.h"
 #include "engine/deck_run.h"
 #include "identify/identified_record.h"
-#include "support/files.h"
-#include "tests/support/chain_record.h"
-#include "tests/support/checks.h"
-#include "tests/support/engine_runs.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <cmath>
-#include <cstddef>
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace drumlin::test {
 namespace {

@@ -1,20 +1,8 @@
 // The exact solution of the chain against piecewise solutions (piecewise_oracle.h) and the closed forms of an
 // impact.
-#include "chain/exact_solution.h"
 #include "tests/support/piecewise_oracle.h"
 #include "tests/support/checks.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <functional>
-#include <limits>
-#include <ostream>
-#include <random>
-#include <string>
-#include <tuple>
+#include "chain/exact_solution.h"
 
 namespace drumlin::test {
 

@@ -1,31 +1,13 @@
+#include "tests/support/engine_runs.h"
+#include "tests/support/ode.h"
+#include "tests/support/sphere_impact.h"
 #include "chain/analysis.h"
 #include "chain/exact_solution.h"
 #include "engine/deck_run.h"
 #include "experiment/plan.h"
 #include "experiment/quantity.h"
 #include "experiment/stable_step.h"
-#include "runs/chain_files.h"
 #include "runs/parameter_file.h"
-#include "support/csv.h"
-#include "support/files.h"
-
-#include "tests/support/engine_runs.h"
-#include "tests/support/ode.h"
-#include "tests/support/sphere_impact.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <cstdlib>
-#include <functional>
-#include <map>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -568,7 +550,7 @@ TEST_F(ExactQuantities, OfAChainAreTheErrorsThatItWasGiven) {
   options.samples_per_cycle = 40;
   const post::ExactSolution exact = post::solve_chain(chain, options);
   Variables parameters = post::parameter_values(chain);
-  parameters.insert(parameters.end(), {{"cycles", "6"}, {"samples_per_cycle", "40"}});
+  parameters = with(parameters, given("cycles 6, samples_per_cycle 40"));
   write("parameters.csv", post::parameters_text(parameters));
   post::ChainHistory run = exact.history;
   std::vector<post::ContactEvent> events = exact.events;

@@ -1,25 +1,12 @@
+#include "tests/support/chain_by_cvode.h"
+#include "tests/support/chain_record.h"
+#include "tests/support/checks.h"
 #include "chain/exact_solution.h"
 #include "identify/identified_record.h"
 #include "identify/lumped_comparison.h"
 #include "identify/page.h"
 #include "record/chain_record.h"
 #include "support/statistics.h"
-
-#include "tests/support/chain_by_cvode.h"
-#include "tests/support/chain_record.h"
-#include "tests/support/checks.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <complex>
-#include <cstddef>
-#include <functional>
-#include <random>
-#include <string>
-#include <vector>
 
 namespace drumlin::test {
 namespace {

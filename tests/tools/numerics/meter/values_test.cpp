@@ -1,26 +1,14 @@
 // Meter values: each formula against its closed form and against an independent computation, records
 // by CVODE against reference values, and the files that other programs read.
+#include "tests/support/chain_by_cvode.h"
+#include "tests/support/chain_record.h"
+#include "tests/support/piecewise_oracle.h"
 #include "map/regime.h"
 #include "meter/page.h"
 #include "meter/sampling.h"
 #include "meter/values.h"
-
 #include "chain/exact_solution.h"
 #include "chain/parameters.h"
-#include "tests/support/chain_by_cvode.h"
-#include "tests/support/chain_record.h"
-#include "tests/support/piecewise_oracle.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <tuple>
-#include <vector>
 
 namespace drumlin::test {
 

@@ -1,32 +1,11 @@
+#include "tests/support/page.h"
+#include "tests/support/tool.h"
 #include "passes/drive.h"
 #include "passes/meter_map.h"
 #include "passes/page.h"
 #include "passes/tables.h"
 #include "passes/values.h"
 #include "runs/parameter_file.h"
-#include "support/csv.h"
-#include "support/files.h"
-
-#include "tests/support/checks.h"
-#include "tests/support/engine_runs.h"
-#include "tests/support/lines.h"
-#include "tests/support/page.h"
-#include "tests/support/tool.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <regex>
-#include <string>
-#include <thread>
-#include <vector>
 
 namespace drumlin::test {
 namespace {
@@ -152,23 +131,12 @@ protected:
     write_files({{folder_ / name / "bed.csv", bed},
                  {folder_ / name / "cycles.csv", cycles},
                  {folder_ / name / "parameters.csv",
-                  parameters_text({{"deck", "drive"},
-                                   {"dimension", "2"},
-                                   {"measure_from", "-1"},
-                                   {"measure_to", "1"},
-                                   {"speed", number_text(speed)},
-                                   {"omega", number_text(w)},
-                                   {"Fw", number_text(Fw)},
-                                   {"m2", number_text(m2)},
-                                   {"m3", number_text(m3)},
-                                   {"roller_width", "2"},
-                                   {"timestep", number_text(1.0 / (frequency * steps_per_cycle))},
-                                   {"layers", "2"},
-                                   {"seed", std::to_string(run.seed)},
-                                   {"layer_tops", "0.4,0.6"},
-                                   {"e_loosest", "0.9,0.9"},
-                                   {"e_densest", "0.2,0.2"},
-                                   {"ended", run.ended}})}});
+                  parameters_text(given(
+                      "deck drive, dimension 2, measure_from -1, measure_to 1, speed {}, omega {}, Fw {}, m2 "
+                      "{}, m3 {}, roller_width 2, timestep {}, layers 2, seed {}, layer_tops 0.4,0.6, "
+                      "e_loosest 0.9,0.9, e_densest 0.2,0.2, ended {}",
+                      number_text(speed), number_text(w), number_text(Fw), number_text(m2), number_text(m3),
+                      number_text(1.0 / (frequency * steps_per_cycle)), run.seed, run.ended))}});
     for (int pass = 0; pass <= run.passes; ++pass)
       if (pass * whole <= end + 1e-9) write_dump(name, run.bed(pass), step_of(pass * whole));
     return folder_ / name;
@@ -481,9 +449,7 @@ TEST_F(Passes, JudgesTheCellsByRulesOfAcceptance) {
 TEST_F(Passes, HaveTheirPageInAReport) {
   draw();
   write_run("run");
-  const auto report = [this] {
-    return run_program({DRUMLIN_TOOLS, "report", "run", "--out", "report"}, {}, folder_);
-  };
+  const auto report = [this] { return run_program(tool_words("report run --out report"), {}, folder_); };
   well(report());
   EXPECT_TRUE(
       contains(read_text(folder_ / "report/index.html"),

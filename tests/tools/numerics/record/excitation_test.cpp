@@ -1,16 +1,8 @@
 // The exciter's frequency and phase from records of a roller that an independent program made: Runge-Kutta of
 // fourth order with a fixed step, which shares no code with the solvers of the tools. In flight its
 // accelerations fulfil the equations of motion exactly, wherever its steps met the events.
+#include "tests/support/prelude.h"
 #include "record/excitation.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
-#include <string>
-#include <vector>
 
 namespace drumlin::test {
 namespace {

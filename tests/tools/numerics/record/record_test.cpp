@@ -1,28 +1,10 @@
+#include "tests/support/chain_by_cvode.h"
+#include "tests/support/changing_roller.h"
+#include "tests/support/engine_runs.h"
 #include "chain/exact_solution.h"
-#include "chain/parameters.h"
 #include "record/record.h"
 #include "record/sensor_range.h"
 #include "record/stretches.h"
-#include "runs/chain_files.h"
-#include "support/csv.h"
-#include "support/files.h"
-
-#include "tests/support/chain_by_cvode.h"
-#include "tests/support/changing_roller.h"
-#include "tests/support/checks.h"
-#include "tests/support/engine_runs.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <functional>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace drumlin::test {
 namespace {

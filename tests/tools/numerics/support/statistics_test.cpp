@@ -1,13 +1,7 @@
 // Statistics and orders of convergence, from numbers whose answer is known.
+#include "tests/support/prelude.h"
 #include "support/convergence.h"
 #include "support/statistics.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <vector>
 
 namespace {
 
