@@ -410,19 +410,20 @@ private:
   void expect_that_its_variables_matter(const Scratch &base) const {
     static std::map<std::string, std::unique_ptr<Scratch>> first_rows;
     static std::map<std::string, int> line_of_first;
-    std::unique_ptr<Scratch> &first = first_rows[row_.heading];
+    const std::string scene = row_.heading + ": " + row_.files.front().name;
+    std::unique_ptr<Scratch> &first = first_rows[scene];
     if (first == nullptr) {
       first = std::make_unique<Scratch>();
       for (const ResultFile &file : row_.files)
         fs::copy_file(base / file.name, *first / file.name);
-      line_of_first[row_.heading] = row_.line;
+      line_of_first[scene] = row_.line;
       return;
     }
     double most = 0;
     for (const ResultFile &file : row_.files)
       most = std::fmax(most, difference(file, first->path(), base.path()));
     EXPECT_GT(most, 100 * std::fmax(row_.ranks.value_or(0), row_.engine.value_or(0)))
-        << "the variables change nothing against line " << line_of_first[row_.heading];
+        << "the variables change nothing against line " << line_of_first[scene];
   }
 
   Row row_;
