@@ -20,7 +20,7 @@ constexpr const char *of_loosest = "keyword scale, loosest", *of_densest = "keyw
 constexpr const char *one_each = "unknown, or a number for each layer, separated by commas";
 /// So much a layer may differ in relative density from what was asked for without a warning, three times the
 /// scatter of single layers (inputs/study/density).
-constexpr double expected_scatter = 0.2;
+constexpr double expected_scatter = 0.25;
 
 /// Area of a disc, or volume of a sphere, of radius 1 to the left of x.
 double content_left_of(double x, bool flat) {

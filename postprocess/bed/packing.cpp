@@ -313,10 +313,6 @@ std::string name_of_grading(const PackingOptions &options) {
 
 } // namespace
 
-std::string packings_file(const PackingOptions &box) {
-  return box.dimensions() == 2 ? "bed/packings.gravel.csv" : "bed/packings.gravel3d.csv";
-}
-
 void note_balls(MeasuredPackings &packings, const PackingOptions &box) {
   const double low = box.smallest_radius(), high = box.largest_radius();
   packings.dimensions = box.dimensions();
@@ -458,7 +454,7 @@ std::string poured_notes(const std::vector<BedLayer> &layers, std::size_t spots)
   std::string notes;
   for (const auto &[name, number] :
        {std::pair{"relative_density", &Pouring::relative_density}, std::pair{"e_loosest", &Pouring::loosest},
-        std::pair{"e_densest", &Pouring::densest}})
+        std::pair{"e_shaken", &Pouring::shaken}})
     notes += fmt::format("# drumlin note {} {}\n", name, poured_list(layers, number));
   std::vector<BedLayer> poured = layers;
   poured.insert(poured.end(), spots, layers.front());

@@ -66,8 +66,6 @@ double default_share(int dimensions);
 /// cut would be above half of the largest size: hardly a distribution is left of the curve then.
 double default_cut(const SieveCurve &curve, const PackingOptions &options);
 
-/// The file in inputs/ with the loosest and the densest packing of balls as `./drumlin bed` makes them.
-std::string packings_file(const PackingOptions &box);
 /// Says of packings that they are of balls as in this box.
 void note_balls(MeasuredPackings &packings, const PackingOptions &box);
 /// Empty if packings were measured of balls like these; else of which, and of which they should be.
@@ -138,7 +136,7 @@ std::string bed_data(const PackingOptions &options, double density, const Packin
 /// The same for a bed of layers. Of the notes the grading is that of each layer, the lowest first, joined by
 /// +, d50 and C_u are those of each layer, separated by commas, and the radii are of all balls; the number of
 /// layers and their thicknesses are noted, too, and, if all have a wanted density, their relative densities,
-/// the void ratios of their loosest and densest packings, and how they are poured. Balls of spots have the
+/// the void ratios of their loosest and shaken packings, and how they are poured. Balls of spots have the
 /// types behind those of the layers.
 std::string bed_data(const std::vector<BedLayer> &layers, double density, const Packing &packing,
                      const std::vector<Spot> &spots = {});

@@ -1,5 +1,6 @@
 #include "bed/relative_density.h"
 
+#include "engine/deck_run.h"
 #include "support/csv.h"
 #include "support/range.h"
 
@@ -13,30 +14,43 @@
 
 namespace drumlin::post {
 
-double relative_density(double void_ratio, double loosest, double densest) {
-  return (loosest - void_ratio) / (loosest - densest);
+namespace {
+
+/// How a packing of a table was made.
+constexpr const char *made_by_pouring = "poured", *made_frictionless = "frictionless",
+                     *made_by_shaking = "shaken", *made_up = "estimated";
+
+} // namespace
+
+double relative_density(double void_ratio, double loosest, double shaken) {
+  return (loosest - void_ratio) / (loosest - shaken);
 }
 
-double densest_by_shaking(bool flat) { return flat ? 0.825 : 0.610; }
-
-MeasuredPackings::MeasuredPackings(std::vector<Row> rows) : rows_(std::move(rows)) {
-  std::sort(rows_.begin(), rows_.end(), [](const Row &a, const Row &b) { return a.share < b.share; });
-  if (rows_.size() < 2 || rows_.front().share != 0.0 || rows_.back().share != 1.0)
+MeasuredPackings::MeasuredPackings(std::vector<Row> poured, double shaken)
+    : poured_(std::move(poured)), shaken_(shaken) {
+  std::sort(poured_.begin(), poured_.end(), [](const Row &a, const Row &b) { return a.share < b.share; });
+  if (poured_.size() < 2 || poured_.front().share != 0.0 || poured_.back().share != 1.0)
     throw std::invalid_argument(
-        "the shares 0, of the densest packing, and 1, of the loosest, and others between");
-  if (!(rows_.back().void_ratio > rows_.front().void_ratio) || !(rows_.front().void_ratio > 0.0))
-    throw std::invalid_argument("a loosest packing whose void ratio is above that of the densest one");
-  double above = rows_.front().void_ratio;
-  for (Row &row : rows_)
-    above = row.void_ratio = std::clamp(row.void_ratio, above, rows_.back().void_ratio);
+        "the poured packings of the shares 0, without friction, and 1, the loosest, and others between");
+  if (!(loosest() > frictionless().void_ratio) || !(frictionless().void_ratio > 0.0))
+    throw std::invalid_argument("a loosest packing whose void ratio is above that of the frictionless one");
+  if (!(loosest() > shaken_) || !(shaken_ > 0.0))
+    throw std::invalid_argument("a loosest packing whose void ratio is above that of the shaken one");
+  double above = frictionless().void_ratio;
+  for (Row &row : poured_)
+    above = row.void_ratio = std::clamp(row.void_ratio, above, loosest());
+}
+
+double MeasuredPackings::most() const {
+  return relative_density(frictionless().void_ratio, loosest(), shaken_);
 }
 
 Pouring MeasuredPackings::pouring(double relative) const {
-  const double wanted = loosest() - relative * (loosest() - densest());
+  const double wanted = std::max(loosest() - relative * (loosest() - shaken_), frictionless().void_ratio);
   std::size_t upper = 1;
-  while (upper + 1 < rows_.size() && rows_[upper].void_ratio < wanted)
+  while (upper + 1 < poured_.size() && poured_[upper].void_ratio < wanted)
     ++upper;
-  const Row &low = rows_[upper - 1], &high = rows_[upper];
+  const Row &low = poured_[upper - 1], &high = poured_[upper];
   const double width = high.void_ratio - low.void_ratio;
   const double part = width > 0.0 ? std::clamp((wanted - low.void_ratio) / width, 0.0, 1.0) : 0.0;
   const auto between = [part](double a, double b) { return a + part * (b - a); };
@@ -45,13 +59,13 @@ Pouring MeasuredPackings::pouring(double relative) const {
           between(low.rolling, high.rolling),
           wanted,
           loosest(),
-          densest(),
+          shaken_,
           of_loosest().friction,
           of_loosest().rolling};
 }
 
 double LayerPackings::relative_density(double solid_fraction) const {
-  return post::relative_density(1.0 / solid_fraction - 1.0, loosest, densest);
+  return post::relative_density(1.0 / solid_fraction - 1.0, loosest, shaken);
 }
 
 std::vector<LayerPackings> noted_packings(const std::map<std::string, std::string> &parameters) {
@@ -68,12 +82,11 @@ std::vector<LayerPackings> noted_packings(const std::map<std::string, std::strin
     }
     return numbers;
   };
-  const std::vector<double> tops = list("layer_tops"), loosest = list("e_loosest"),
-                            densest = list("e_densest");
-  if (loosest.empty() || loosest.size() != densest.size() || loosest.size() != tops.size()) return {};
+  const std::vector<double> tops = list("layer_tops"), loosest = list("e_loosest"), shaken = list("e_shaken");
+  if (loosest.empty() || loosest.size() != shaken.size() || loosest.size() != tops.size()) return {};
   std::vector<LayerPackings> layers;
   for (std::size_t n = 0; n < tops.size(); ++n)
-    layers.push_back({tops[n], loosest[n], densest[n]});
+    layers.push_back({tops[n], loosest[n], shaken[n]});
   return layers;
 }
 
@@ -84,30 +97,49 @@ const LayerPackings &layer_at(const std::vector<LayerPackings> &layers, double h
 }
 
 std::string packings_csv(const MeasuredPackings &packings) {
-  std::string text = csv_line({"share", "friction", "rolling", "void_ratio", "solid_fraction",
-                               "relative_density", "dimension", "spread", "grading", "d50_over_smallest"});
-  for (const MeasuredPackings::Row &row : packings.rows())
-    text += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4f},{},{:.8g},{},{:.8g}\n", row.share,
-                        row.friction, row.rolling, row.void_ratio, 1.0 / (1.0 + row.void_ratio),
-                        relative_density(row.void_ratio, packings.loosest(), packings.densest()),
-                        packings.dimensions, packings.spread, packings.grading, packings.d50_over_smallest);
+  std::string text =
+      csv_line({"share", "friction", "rolling", "void_ratio", "solid_fraction", "relative_density",
+                "dimension", "spread", "grading", "d50_over_smallest", "made"});
+  const auto add = [&](const MeasuredPackings::Row &row, const char *made) {
+    text +=
+        fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4f},{},{:.8g},{},{:.8g},{}\n", row.share,
+                    row.friction, row.rolling, row.void_ratio, 1.0 / (1.0 + row.void_ratio),
+                    relative_density(row.void_ratio, packings.loosest(), packings.shaken()),
+                    packings.dimensions, packings.spread, packings.grading, packings.d50_over_smallest, made);
+  };
+  for (const MeasuredPackings::Row &row : packings.poured())
+    add(row, row.share == 0.0 ? made_frictionless : made_by_pouring);
+  MeasuredPackings::Row row = packings.of_loosest();
+  row.void_ratio = packings.shaken();
+  add(row, packings.estimated ? made_up : made_by_shaking);
   return text;
 }
 
 MeasuredPackings read_packings(const std::filesystem::path &file) {
   const Table table = read_table(file);
-  for (const char *column : {"dimension", "spread"})
+  for (const char *column : {"dimension", "spread", "made"})
     if (!table.has(column))
       csv_fault(file, 0, column,
-                "is missing; allowed: density.csv of this version's in.density, which says of "
-                "which balls it is");
+                "is missing; allowed: a table with a shaken packing, as in.density and drumlin bed make it; "
+                "earlier ones end at a packing without friction");
   const std::vector<double> share = table.numbers("share"), friction = table.numbers("friction"),
                             rolling = table.numbers("rolling"), void_ratio = table.numbers("void_ratio");
+  const std::vector<std::string> made = table.text("made");
   std::vector<MeasuredPackings::Row> rows;
+  std::vector<std::size_t> densest;
   for (std::size_t n = 0; n < table.rows(); ++n)
-    rows.push_back({share[n], friction[n], rolling[n], void_ratio[n]});
+    if (made[n] == made_by_shaking || made[n] == made_up)
+      densest.push_back(n);
+    else if (made[n] == made_by_pouring || made[n] == made_frictionless)
+      rows.push_back({share[n], friction[n], rolling[n], void_ratio[n]});
+    else
+      csv_fault(file, table.line(n), "made",
+                fmt::format("is '{}'; allowed: {}, {}, {} or {}", made[n], made_by_pouring, made_frictionless,
+                            made_by_shaking, made_up));
   try {
-    MeasuredPackings packings(std::move(rows));
+    if (densest.size() != 1) throw std::invalid_argument("one packing that was shaken");
+    MeasuredPackings packings(std::move(rows), void_ratio[densest.front()]);
+    packings.estimated = made[densest.front()] == made_up;
     packings.dimensions = static_cast<int>(table.numbers("dimension").front());
     packings.spread = table.numbers("spread").front();
     if (table.has("grading")) {
@@ -118,6 +150,22 @@ MeasuredPackings read_packings(const std::filesystem::path &file) {
   } catch (const std::invalid_argument &fault) {
     throw std::runtime_error(fmt::format("{}: allowed: {}", file.string(), fault.what()));
   }
+}
+
+MeasuredPackings packings_of_gravel(int dimensions) {
+  return read_packings(input_file(dimensions == 2 ? "bed/packings.gravel.csv" : "bed/packings.gravel3d.csv"));
+}
+
+double densest_by_shaking(const std::map<std::string, std::string> &parameters, std::size_t layer,
+                          bool flat) {
+  std::vector<LayerPackings> noted;
+  try {
+    noted = noted_packings(parameters);
+  } catch (const std::runtime_error &) {
+    // a file that no deck has written
+  }
+  return 1.0 /
+         (1.0 + (layer < noted.size() ? noted[layer].shaken : packings_of_gravel(flat ? 2 : 3).shaken()));
 }
 
 } // namespace drumlin::post

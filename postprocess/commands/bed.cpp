@@ -113,11 +113,12 @@ struct BedArguments : Options {
   Texts relative_densities =
       texts_in_a_row("--relative-density", "NUMBER",
                      "of a layer, or of the whole bed, from 0, the loosest packing of its mix, to 1, the "
-                     "densest; once, or once for each "
+                     "densest that shaking leaves; above 1, up to some 1.3, denser than any soil, which can "
+                     "only loosen; once, or once for each "
                      "--layer: in.settle then pours the layer with the friction that gives it");
   Texts packings = texts_in_a_row(
       "--packings", "FILE",
-      "table of the loosest and the densest packing of the layer's mix and those between: density.csv of "
+      "table of the loosest and the shaken packing of the layer's mix and those between: density.csv of "
       "inputs/soil/in.density, or OUT_packings.csv of an earlier call; once, or once for each --layer; "
       "default: the stored ones of case gravel for its radii and friction, else a table beside --out, "
       "which LIGGGHTS makes once, in some minutes");
@@ -221,7 +222,7 @@ MeasuredPackings given_packings(const std::string &file, const BedArguments &arg
 
 /// The stored packings of case gravel, if they are of such balls and contacts.
 std::optional<MeasuredPackings> stored_packings(const SoilFriction &soil, const PackingOptions &box) {
-  MeasuredPackings packings = read_packings(input_file(packings_file(box)));
+  MeasuredPackings packings = packings_of_gravel(box.dimensions());
   const SoilFriction gravel;
   if (!other_balls(packings, box).empty() || soil.friction != gravel.friction ||
       soil.rolling != gravel.rolling)
@@ -246,10 +247,14 @@ void pour_layers(const BedArguments &arguments, BedRequest &request) {
   for (std::size_t n = 0; n < layers; ++n) {
     const std::string density = of_layer(arguments.relative_densities, n, layers),
                       file = of_layer(arguments.packings, n, layers);
-    constexpr Range between = {0.0, 1.0};
+    constexpr Range range = {0.0, 2.0};
     const PackingOptions &box = request.layers[n].bed.packing;
-    wanted.push_back({number_option("--relative-density", density, between),
+    wanted.push_back({number_option("--relative-density", density, range),
                       file.empty() ? stored_packings(soil, box) : given_packings(file, arguments, box)});
+    const double most = wanted.back().packings.value_or(packings_of_gravel(box.dimensions())).most();
+    if (wanted.back().relative > most)
+      throw arguments.relative_densities.refused(
+          density, fmt::format("at most {:.3f}, of the packing without friction", most));
   }
   for (std::size_t n = 0; n < layers; ++n) {
     BedLayer &layer = request.layers[n].bed;
@@ -260,6 +265,12 @@ void pour_layers(const BedArguments &arguments, BedRequest &request) {
           request.out.parent_path() / fmt::format("{}_packings{}.csv", request.out.stem().string(), number),
           fmt::format("Layer {}", n + 1));
     }
+    if (wanted[n].packings->estimated)
+      print_progress(
+          fmt::format("Layer {}: nothing was shaken; how dense shaking makes it is estimated from case "
+                      "gravel, {:.2f} of the way from the loosest to the frictionless packing, "
+                      "uncertain by a tenth or more",
+                      n + 1, 1.0 / wanted[n].packings->most()));
     layer.pouring = wanted[n].packings->pouring(wanted[n].relative);
     if (!arguments.layers)
       layer.thickness *= layer.packing.balls / static_cast<double>(balls_of(layer));
@@ -500,10 +511,12 @@ std::vector<BedLayer> layers_of(const BedRequest &request) {
 std::string poured_words(const BedLayer &layer) {
   if (!layer.pouring) return {};
   const Pouring &poured = *layer.pouring;
-  return fmt::format(", at a relative density of {:g}: void ratio {:.3f} ({:.3f} loosest, {:.3f} densest), "
-                     "poured with friction {:.3g} and rolling friction {:.3g}",
-                     poured.relative_density, poured.void_ratio, poured.loosest, poured.densest,
-                     poured.friction, poured.rolling);
+  return fmt::format(
+      ", at a relative density of {:g}: void ratio {:.3f} ({:.3f} loosest, {:.3f} shaken), "
+      "poured with friction {:.3g} and rolling friction {:.3g}{}",
+      poured.relative_density, poured.void_ratio, poured.loosest, poured.shaken, poured.friction,
+      poured.rolling,
+      poured.relative_density > 1.0 ? "; denser than shaking leaves it, so that it can only loosen" : "");
 }
 
 /// Number of balls that the bed is to have.

@@ -123,7 +123,8 @@ std::vector<Step> steps_of(const DemoArguments &arguments, bool with_lammps) {
   // those of case gravel. It takes minutes.
   if (drives) {
     add(Kind::tool, "",
-        "bed --width 4.4 --radius-min 0.024 --radius-max 0.036 --layer 0.4 0.3 --relative-density 0.9 0.1 "
+        "bed --width 4.4 --radius-min 0.024 --radius-max 0.036 --layer 0.4 0.3 --relative-density 1.237 "
+        "0.137 "
         "--out {out}/drive/balls.data");
     add(Kind::run_beside, "loose lift comes to rest",
         "run {in}/bed/in.settle -var balls {out}/drive/balls.data -var bed {out}/drive/soil.restart "

@@ -23,12 +23,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Samples of so many balls scatter by some 9 % of the range from the loosest to the densest packing, means
-/// of three by 5 %.
+/// Samples of so many balls scatter by some 9 % of the range from the loosest to the frictionless packing,
+/// means of three by 5 %.
 constexpr int sample_balls = 1000;
 constexpr std::uint64_t seeds = 3;
 /// Packings change steeply where there is little friction.
 constexpr std::array<double, 5> shares = {1.0, 0.5, 0.2, 0.07, 0.0};
+
+/// Void ratio that shaking would leave: as far from the loosest to the frictionless packing as of case
+/// gravel.
+double estimated_shaken(const std::vector<MeasuredPackings::Row> &rows, int dimensions) {
+  const double loosest = rows.front().void_ratio, frictionless = rows.back().void_ratio;
+  return loosest - (loosest - frictionless) / packings_of_gravel(dimensions).most();
+}
 
 /// The layer in a box of another width, and in three dimensions depth, with so many balls.
 BedLayer sample_of(BedLayer layer) {
@@ -85,7 +92,7 @@ MeasuredPackings made_packings(const BedLayer &layer, const SoilFriction &soil, 
   BedLayer sample = sample_of(layer);
   const int dimensions = sample.packing.dimensions();
   const std::size_t samples = seeds * shares.size();
-  print_progress(fmt::format("{}: its loosest and densest packing and those between are not known; LIGGGHTS "
+  print_progress(fmt::format("{}: its loosest packing and denser ones are not known; LIGGGHTS "
                              "pours {} samples of {} {}, some {} minutes",
                              title, samples, sample.packing.balls, dimensions == 2 ? "discs" : "spheres",
                              dimensions == 2 ? 5 : 20));
@@ -107,7 +114,9 @@ MeasuredPackings made_packings(const BedLayer &layer, const SoilFriction &soil, 
                                     row.friction, row.rolling, phi));
     }
   }
-  MeasuredPackings packings(std::move(rows));
+  const double shaken = estimated_shaken(rows, dimensions);
+  MeasuredPackings packings(std::move(rows), shaken);
+  packings.estimated = true;
   note_balls(packings, sample.packing);
   make_parent_folder(table);
   write_files({{table, packings_csv(packings)}});

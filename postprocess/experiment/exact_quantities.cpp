@@ -106,7 +106,8 @@ SteadyExtremes steady_extremes_of(const fs::path &folder, const ExactChain &know
   const auto cycles = static_cast<int>(known.exact.cycles.size());
   return steady_extremes(read_chain(folder / "chain.csv"), read_events(folder / "events.csv"),
                          read_cycle_columns(folder / "cycles.csv"), known.chain,
-                         last_cycles_window(cycles, steady_error_cycles, known.chain.period()), steady_error_cycles);
+                         last_cycles_window(cycles, steady_error_cycles, known.chain.period()),
+                         steady_error_cycles);
 }
 
 template <class Of>

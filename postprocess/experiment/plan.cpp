@@ -529,10 +529,10 @@ private:
     const std::optional<SieveCurve> sizes =
         words.size() == 2 ? curve_between(words[1]) : std::optional<SieveCurve>();
     if (!thickness || !PackingOptions::length_range.holds(*thickness) ||
-        (words.size() > 1 && !sizes && !has_density) || !(density >= 0.0 && density <= 1.0))
+        (words.size() > 1 && !sizes && !has_density) || !(density >= 0.0))
       refuse(PackingOptions::length_range.words() +
              ", and behind it nothing, the smallest and the largest size, in mm, as 32-48, or "
-             "relative_density and a number from 0 to 1");
+             "relative_density and a number >= 0");
     BedLayer layer{{}, *thickness};
     layer.packing.sieve = sizes;
     if (sizes) layer.packing.sieve_name = words[1];
@@ -766,10 +766,13 @@ private:
       if (layer.pouring.has_value() != scene.bed->layers.front().pouring.has_value())
         refuse("relative_density of all layers, or of none");
       if (layer.pouring) {
-        const MeasuredPackings packings = read_packings(input_file(packings_file(layer.packing)));
+        const MeasuredPackings packings = packings_of_gravel(layer.packing.dimensions());
         if (!other_balls(packings, layer.packing).empty())
           refuse("relative_density of layers without sizes of their own, whose radii have the ratio of case "
                  "gravel");
+        if (layer.pouring->relative_density > packings.most())
+          refuse(fmt::format("relative densities of at most {:.3f}, of the packing without friction",
+                             packings.most()));
         layer.pouring = packings.pouring(layer.pouring->relative_density);
       }
       layer.packing.balls = balls_of(layer);

@@ -408,7 +408,6 @@ std::string moist_words(const PassesResult &one) {
 std::string worth_of(const Results &results) {
   std::vector<std::string> loosened;
   std::string conditions = moist_words(results.front());
-  const double shaken = densest_by_shaking(results.front().flat);
   const std::size_t layers = results.front().layers();
   for (std::size_t layer = layers; layer-- > 0;) {
     const std::string name = layer + 1 == layers ? "the lift" : fmt::format("layer {}", layer + 1);
@@ -417,6 +416,7 @@ std::string worth_of(const Results &results) {
     const double before = mean_after(results, 0, [layer](const PassValues &pass) {
                             return pass.soil.inner_solid_fraction(layer);
                           }).mean;
+    const double shaken = densest_by_shaking(results.front().parameters, layer, results.front().flat);
     if (before > shaken)
       conditions +=
           fmt::format(" Inside, {} began at a solid fraction of {:.3f}; shaking leaves at most {:.3f} "
@@ -445,7 +445,7 @@ void write_passes_page(const std::filesystem::path &folder, const Results &resul
   page.answer(criteria_of(judged));
   const bool known = std::isfinite(one.passes.back().degree.back());
   if (!known)
-    page.answer("The degree of compaction is not known: the run does not note e_loosest and e_densest of its "
+    page.answer("The degree of compaction is not known: the run does not note e_loosest and e_shaken of its "
                 "layers (beds of a wanted density do).");
   page.answer(fmt::format("The roller drove at {:.3g} m/s and shook at {:.3g} Hz; a cell of {:g} m holds "
                           "{:.3g} cycles, of which an even whole number counts. {}",

@@ -225,7 +225,7 @@ std::string worth_of(const BedGroup &group) {
                       "accelerations and stiffness count as means over several beds.";
   const BedResult &first = *group.runs.front();
   const double solid = 1.0 / (1.0 + first.measures.void_ratio_start);
-  if (const double shaken = densest_by_shaking(per_metre(first.run)); solid > shaken)
+  if (const double shaken = densest_by_shaking(first.run.parameters, 0, per_metre(first.run)); solid > shaken)
     words += fmt::format(" The soil begins at a solid fraction of {:.3f}; shaking leaves at most {:.3f} of "
                          "such soil, so that it can only loosen: disregard how its density changes.",
                          solid, shaken);

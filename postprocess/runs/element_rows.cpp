@@ -57,14 +57,22 @@ std::vector<OedometerRow> read_oedometer(const fs::path &file) {
 }
 
 std::vector<DensityRow> read_density(const fs::path &file) {
-  return rows_of<DensityRow>(read_element_table(file), {{"share", &DensityRow::share},
-                                                        {"friction", &DensityRow::friction},
-                                                        {"rolling", &DensityRow::rolling},
-                                                        {"void_ratio", &DensityRow::void_ratio},
-                                                        {"solid_fraction", &DensityRow::solid_fraction},
-                                                        {"relative_density", &DensityRow::relative_density},
-                                                        {"compaction", &DensityRow::compaction},
-                                                        {"coordination", &DensityRow::coordination}});
+  const Table table = read_element_table(file);
+  std::vector<DensityRow> rows =
+      rows_of<DensityRow>(table, {{"share", &DensityRow::share},
+                                  {"friction", &DensityRow::friction},
+                                  {"rolling", &DensityRow::rolling},
+                                  {"void_ratio", &DensityRow::void_ratio},
+                                  {"solid_fraction", &DensityRow::solid_fraction},
+                                  {"relative_density", &DensityRow::relative_density},
+                                  {"compaction", &DensityRow::compaction},
+                                  {"coordination", &DensityRow::coordination}});
+  if (table.has("made")) {
+    const std::vector<std::string> made = table.text("made");
+    for (std::size_t n = 0; n < rows.size(); ++n)
+      rows[n].made = made[n];
+  }
+  return rows;
 }
 
 std::vector<CompressionRow> read_compression(const fs::path &file) {

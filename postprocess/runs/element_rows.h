@@ -36,6 +36,7 @@ struct DensityRow {
   double relative_density = 0.0;
   double compaction = 0.0;
   double coordination = 0.0;
+  std::string made; ///< poured, shaken or frictionless; empty in runs without a shaken packing
 };
 
 /// Reads density.csv. Throws std::runtime_error with file, line and column, or for less than two rows.

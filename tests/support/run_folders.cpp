@@ -90,7 +90,7 @@ void write_bed_run(const fs::path &folder, Transition transition, int cycles, co
   std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
   values = with(values, given("deck bed, case gravel, start roller.restart, stepping second, friction {}, "
                               "balls 2, r2 0.5, drum_depth 0.03, grading WMM_from_14mm, r_min 0.007, r_max "
-                              "0.0265, d50 0.0301, C_u 1.75, layer_tops 0.5, e_loosest 0.3, e_densest 0.1, "
+                              "0.0265, d50 0.0301, C_u 1.75, layer_tops 0.5, e_loosest 0.3, e_shaken 0.1, "
                               "steps_per_cycle 800, timestep {}, command {}, ended yes",
                               friction, number_text(period / 800),
                               "liggghts -in <in.bed> -var out " + folder.filename().string()));

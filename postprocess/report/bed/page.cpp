@@ -114,7 +114,7 @@ PageTable motion_table(const std::vector<BedResult> &beds) {
   return motion;
 }
 
-/// Relative density of a void ratio, where the loosest and the densest packing are known and one for all
+/// Relative density of a void ratio, where the loosest and the shaken packing are known and one for all
 /// layers.
 std::string relative_density_of(const Run &run, double void_ratio) {
   std::vector<LayerPackings> layers;
@@ -124,11 +124,11 @@ std::string relative_density_of(const Run &run, double void_ratio) {
     return no_value; // a file that no deck has written
   }
   const auto differs = [&layers](const LayerPackings &layer) {
-    return layer.loosest != layers.front().loosest || layer.densest != layers.front().densest;
+    return layer.loosest != layers.front().loosest || layer.shaken != layers.front().shaken;
   };
   if (layers.empty() || !std::isfinite(void_ratio) || std::any_of(layers.begin(), layers.end(), differs))
     return no_value;
-  return rounded(relative_density(void_ratio, layers.front().loosest, layers.front().densest));
+  return rounded(relative_density(void_ratio, layers.front().loosest, layers.front().shaken));
 }
 
 PageTable state_table(const std::vector<BedResult> &beds) {
@@ -175,8 +175,8 @@ PageTable state_table(const std::vector<BedResult> &beds) {
       "below the mean surface that the soil had before the drum was placed, away from the drum; negative "
       "above. Grading, sizes (diameters), d50 and Cu = d60 / d10, by mass, are those of the balls that "
       "drumlin bed made; of layers of each, the lowest first. Relative density: of the void ratio, 0 for the "
-      "loosest and 1 for the densest packing of the mix, of beds that were made with drumlin bed "
-      "--relative-density.");
+      "loosest packing of the mix, by pouring, and 1 for the densest by shaking, of beds that were made with "
+      "drumlin bed --relative-density.");
   return state;
 }
 

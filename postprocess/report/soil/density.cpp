@@ -31,8 +31,9 @@ std::string mean_of(const std::vector<DensityRun> &runs, const SoilGroup &soil, 
 std::string answer_of(const std::vector<DensityRun> &runs, const SoilGroup &soil) {
   const std::string alone =
       soil.runs.size() < 2 ? "; a single run does not say how much samples scatter: take several seeds" : "";
-  return fmt::format("Void ratio of the loosest packing {}, of the densest {} ({}){}.",
+  return fmt::format("Void ratio of the loosest packing {}, of the {} {} ({}){}.",
                      mean_of(runs, soil, 0, &DensityRow::void_ratio),
+                     runs[soil.runs.front()].rows[1].made.empty() ? "frictionless" : "shaken",
                      mean_of(runs, soil, 1, &DensityRow::void_ratio), soil.name, alone);
 }
 
@@ -56,17 +57,20 @@ PageTable soil_table(const std::vector<DensityRun> &runs) {
 
 /// Every packing of every run.
 PageTable packing_table(const std::vector<DensityRun> &runs) {
-  PageTable table("density_packings", "Packings",
-                  "run | friction while it was made (-) | rolling friction then (-) | void ratio (-) | solid "
-                  "fraction (-) | relative density (-) | degree of compaction (-) | contacts per ball (-)");
+  PageTable table(
+      "density_packings", "Packings",
+      "run | made | friction while it was made (-) | rolling friction then (-) | void ratio (-) | solid "
+      "fraction (-) | relative density (-) | degree of compaction (-) | contacts per ball (-)");
   for (const DensityRun &run : runs)
     for (const DensityRow &row : run.rows)
-      table.add({run.run.name, number_cell(row.friction), number_cell(row.rolling),
-                 number_cell(row.void_ratio), number_cell(row.solid_fraction),
+      table.add({run.run.name, row.made.empty() ? no_value : row.made, number_cell(row.friction),
+                 number_cell(row.rolling), number_cell(row.void_ratio), number_cell(row.solid_fraction),
                  number_cell(row.relative_density), number_cell(row.compaction),
                  number_cell(row.coordination)});
-  table.notes = {"Relative density: 0 for the loosest packing of a run, 1 for its densest; degree of "
-                 "compaction: density over that of the densest packing."};
+  table.notes = {"Relative density: 0 for the loosest packing of a run, 1 for its shaken one; degree of "
+                 "compaction: density over that of the shaken packing. In a run without a shaken packing the "
+                 "frictionless one, which is denser than any soil, takes its place: this is not the scale of "
+                 "beds."};
   return table;
 }
 
@@ -97,9 +101,7 @@ PageWriter read_density_page(const std::vector<fs::path> &folders) {
     Page page(out, density_title, std::nullopt);
     page.answer(
         "Balls that sank to a rough floor and came to rest: with the friction of the soil they form its "
-        "loosest packing, without friction or shaken its densest. Between these void ratios a bed of this "
-        "soil "
-        "can be made.");
+        "loosest packing, shaken its densest, and without friction one that is denser than any soil.");
     for (const SoilGroup &soil : soils_of(runs, {"shares"}))
       page.answer(answer_of(runs, soil));
     page.section("Void ratios");

@@ -458,6 +458,22 @@ TEST_F(DensityReport, ShowsTheLoosestAndTheDensest) {
   EXPECT_TRUE(contains(data("density", "density_soils"), "0.500 ± 0.254"));
   EXPECT_TRUE(contains(data("density", "density_soils"), "0.250 ± 0.000"));
   EXPECT_TRUE(contains(data("density", "density_packings"), "0.225"));
+  EXPECT_TRUE(contains(read_text(root / "report/density/index.html"),
+                       "Void ratio of the loosest packing 0.500 ± 0.254, of the frictionless 0.250 ± 0.000"));
+}
+
+// With a shaken packing every row says how its packing was made.
+TEST_F(DensityReport, SaysWhichPackingWasShaken) {
+  std::string columns = header;
+  columns.insert(columns.size() - 1, ",made");
+  write_run("run", "density.csv",
+            columns + "1,0.8,0.45,0.5,0.667,0,0.9,3.1,poured\n1,0.8,0.45,0.3,0.769,1,1,3.5,shaken\n"
+                      "0,0,0,0.25,0.8,1.25,1.04,3.9,frictionless\n",
+            "deck,density\nsample,random\nseed,1\n");
+  EXPECT_TRUE(contains(report("run"), "density/index.html"));
+  EXPECT_TRUE(contains(read_text(root / "report/density/index.html"),
+                       "Void ratio of the loosest packing 0.500, of the shaken 0.300"));
+  EXPECT_TRUE(contains(data("density", "density_packings"), ",frictionless,"));
 }
 
 TEST_F(DensityReport, RefusesDamagedFiles) {

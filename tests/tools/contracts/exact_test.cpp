@@ -590,18 +590,20 @@ TEST_F(ToolOptions, AdviceForARollerNamesItsFile) {
 TEST_F(ToolOptions, LayersArePouredForTheirRelativeDensity) {
   std::ofstream(folder_ / "density.csv")
       << "share,friction,rolling,void_ratio,solid_fraction,relative_density,compaction,coordination,"
-         "dimension,spread\n1,0.8,0.4,0.3,0.77,0,0.92,3,2,0.2\n0,0,0,0.2,0.83,1,1,4,2,0.2\n"
-         "0.5,0.4,0.2,0.28,0.78,0.2,0.94,3,2,0.2\n";
+         "dimension,spread,made\n1,0.8,0.4,0.3,0.77,0,0.93,3,2,0.2,poured\n"
+         "1,0.8,0.4,0.22,0.82,1,1,4,2,0.2,shaken\n0,0,0,0.2,0.83,1.25,1.02,4,2,0.2,frictionless\n"
+         "0.5,0.4,0.2,0.28,0.78,0.25,0.95,3,2,0.2,poured\n";
   const post::Outcome outcome =
-      well(run(words_of("bed --width 4 --layer 0.3 --layer 0.3 --packings density.csv --relative-density 0.1 "
-                        "--relative-density 1 --out balls.data")));
-  EXPECT_TRUE(printed(outcome,
-                      "at a relative density of 0.1: void ratio 0.290 (0.300 loosest, 0.200 densest), "
-                      "poured with friction 0.6 and rolling friction 0.3"));
+      well(run(words_of("bed --width 4 --layer 0.3 --layer 0.3 --packings density.csv --relative-density "
+                        "0.125 --relative-density 1.25 --out balls.data")));
+  EXPECT_TRUE(
+      printed(outcome, {"at a relative density of 0.125: void ratio 0.290 (0.300 loosest, 0.220 shaken), "
+                        "poured with friction 0.6 and rolling friction 0.3",
+                        "friction 0; denser than shaking leaves it, so that it can only loosen"}));
   const std::string text = post::read_text(folder_ / "balls.data");
-  for (const char *note :
-       {"relative_density 0.1,1\n", "e_loosest 0.3,0.3\n", "e_densest 0.2,0.2\n", "pour_friction 0.6,0\n",
-        "pour_rolling 0.3,0\n", "packings_friction 0.8,0.8\n", "packings_rolling 0.4,0.4\n", "seed 1\n"})
+  for (const char *note : {"relative_density 0.125,1.25\n", "e_loosest 0.3,0.3\n", "e_shaken 0.22,0.22\n",
+                           "pour_friction 0.6,0\n", "pour_rolling 0.3,0\n", "packings_friction 0.8,0.8\n",
+                           "packings_rolling 0.4,0.4\n", "seed 1\n"})
     EXPECT_TRUE(contains(text, std::string("# drumlin note ") + note)) << note;
   double area[] = {0.0, 0.0};
   std::istringstream rows(text.substr(text.find("Atoms\n") + 6));
@@ -615,6 +617,15 @@ TEST_F(ToolOptions, LayersArePouredForTheirRelativeDensity) {
   EXPECT_EQ(
       run(words_of("bed --layer 0.3 --packings density.csv --relative-density 1 --out density.csv")).status,
       2);
+  const auto densest = [this](const std::string &relative) {
+    return run(words_of("bed --layer 0.3 --packings density.csv --relative-density " + relative +
+                        " --out dense.data"));
+  };
+  // Shaken soil is poured with a quarter of the way from void ratio 0.20 to 0.28, of friction 0 to 0.4.
+  EXPECT_TRUE(printed(well(densest("1")), "void ratio 0.220 (0.300 loosest, 0.220 shaken), "
+                                          "poured with friction 0.1 and rolling friction 0.05"));
+  EXPECT_TRUE(printed(densest("1.26"), "--relative-density is '1.26'; allowed: at most 1.250, of the packing "
+                                       "without friction"));
 }
 
 // A table of packings says of which balls it is.
@@ -623,9 +634,13 @@ TEST_F(ToolOptions, PackingsOfOtherBallsAreRefused) {
       "share,friction,rolling,void_ratio,solid_fraction,relative_density,compaction,coordination";
   const auto refused = [&](const std::string &mix, const std::vector<std::string> &more,
                            const std::string &says) {
-    post::write_files({{folder_ / "density.csv", columns + (mix.empty() ? "" : ",dimension,spread") +
-                                                     "\n1,0.8,0.4,0.3,0.77,0,0.9,3" + mix +
-                                                     "\n0,0,0,0.2,0.83,1,1,4" + mix + "\n"}});
+    const auto row = [&mix](const std::string &numbers, const std::string &made) {
+      return "\n" + numbers + mix + (mix.empty() ? "" : "," + made);
+    };
+    post::write_files({{folder_ / "density.csv", columns + (mix.empty() ? "" : ",dimension,spread,made") +
+                                                     row("1,0.8,0.4,0.3,0.77,0,0.9,3", "poured") +
+                                                     row("0,0,0,0.2,0.83,1,1,4", "frictionless") +
+                                                     row("1,0.8,0.4,0.22,0.82,1,1,4", "shaken") + "\n"}});
     std::vector<std::string> words =
         words_of("bed --layer 0.3 --packings density.csv --relative-density 1 --out none.data");
     words.insert(words.end(), more.begin(), more.end());
@@ -636,8 +651,10 @@ TEST_F(ToolOptions, PackingsOfOtherBallsAreRefused) {
     EXPECT_FALSE(fs::exists(folder_ / "none.data"));
   };
   const std::string allowed = "--packings is 'density.csv'; allowed: packings of ";
-  refused("", {},
-          "density.csv, column 'dimension': is missing; allowed: density.csv of this version's in.density");
+  refused(
+      "", {},
+      "density.csv, column 'dimension': is missing; allowed: a table with a shaken packing, as in.density "
+      "and drumlin bed make it; earlier ones end at a packing without friction");
   refused(",3,0.2", {},
           allowed + "discs with radii from r to 1.5 r, grading uniform; it has those of spheres");
   refused(",2,0.2", {"--depth", "0.2"}, allowed + "spheres with radii from r to 1.5 r");
@@ -646,8 +663,10 @@ TEST_F(ToolOptions, PackingsOfOtherBallsAreRefused) {
   refused(",2,0.2", {"--grading", "mass"}, allowed + "discs with radii from r to 1.5 r, grading mass");
   // A curve of the same name and limits whose stones are finer.
   post::write_files({{folder_ / "density.csv",
-                      "share,friction,rolling,void_ratio,dimension,spread,grading,d50_over_smallest\n"
-                      "1,0.8,0.4,0.3,2,0.5,20-60_from_20mm,1.6\n0,0,0,0.2,2,0.5,20-60_from_20mm,1.6\n"}});
+                      "share,friction,rolling,void_ratio,dimension,spread,grading,d50_over_smallest,made\n"
+                      "1,0.8,0.4,0.3,2,0.5,20-60_from_20mm,1.6,poured\n"
+                      "1,0.8,0.4,0.22,2,0.5,20-60_from_20mm,1.6,shaken\n"
+                      "0,0,0,0.2,2,0.5,20-60_from_20mm,1.6,frictionless\n"}});
   const post::Outcome finer =
       run(words_of("bed --layer 0.3:20-60:20 --packings density.csv --relative-density 1 --out none.data"));
   EXPECT_EQ(finer.status, 2);

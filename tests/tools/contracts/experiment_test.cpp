@@ -488,7 +488,7 @@ TEST(DriveStudy, MeasuresWhatPassesLeave) {
         "quantity settlement m last passes.csv settlement [m]\nquantity CMV - mean passes.csv CMV [-]\n"
         "quantity cell N largest way.csv peak_force [N]\n"
         "deck bed/in.drive\nwidth 1\nratio 1\n"
-        "layer 0.25 relative_density 0.9\nlayer 0.15 relative_density 0.1\n" +
+        "layer 0.25 relative_density 1.237\nlayer 0.15 relative_density 0.137\n" +
             lines("set", soil) + lines("set", roller) + "set_placed place -0.3\n" + lines("set_run", drive) +
             "scene a/spot\nspot -0.1 0.1\nset k 1e8,1e8,5e7\n"}});
   const Outcome study =
@@ -498,7 +498,7 @@ TEST(DriveStudy, MeasuresWhatPassesLeave) {
   ASSERT_EQ(values.size(), 4U);
 
   const Outcome balls = run_program(tool_words("bed --width 1 --layer 0.25 --layer 0.15 --relative-density "
-                                               "0.9 --relative-density 0.1 --spot -0.1:0.1 --out balls"),
+                                               "1.237 --relative-density 0.137 --spot -0.1:0.1 --out balls"),
                                     {}, scratch.path(), 100.0);
   ASSERT_TRUE(balls.ok()) << balls.output;
   const auto run = [&](const char *deck, const Variables &more) {

@@ -157,7 +157,7 @@ TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
 // Two discs of radius 1 m take 2 pi of 3.8 m by 2 m.
 TEST_F(VtkCommand, WritesTheRelativeDensityOfALayer) {
   put("run/parameters.csv", "name,value\ntimestep,0.125\nlayer_tops,\"-5,9\"\ne_loosest,\"0.1,0.3\"\n"
-                            "e_densest,\"0.05,0.2\"\n");
+                            "e_shaken,\"0.05,0.2\"\n");
   well(run({"run", "--cell", "4", "--out", "new"}));
   vtkNew<vtkXMLImageDataReader> image;
   image->SetFileName((folder_ / "new/fields_200.vti").c_str());

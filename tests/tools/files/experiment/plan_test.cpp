@@ -343,10 +343,10 @@ TEST_F(PlanTest, PoursLayersOfADensityAndMakesSpots) {
                          "scene moved\nfrom spot\nspot 0 1\n"
                          "scene dense\nfrom plain\nlayer 0.4 relative_density 1\n"
                          "layer 0.3 relative_density 1\n");
-  const post::MeasuredPackings packings = post::read_packings(post::input_file("bed/packings.gravel.csv"));
+  const post::MeasuredPackings packings = post::packings_of_gravel(2);
   const std::vector<post::BedLayer> &layers = plan.scene("plain").bed->layers;
   ASSERT_EQ(layers.size(), 2U);
-  EXPECT_EQ(layers[0].pouring->void_ratio, packings.densest());
+  EXPECT_EQ(layers[0].pouring->void_ratio, packings.shaken());
   EXPECT_EQ(layers[1].pouring->void_ratio, packings.loosest());
   EXPECT_EQ(layers[1].pouring->friction, packings.of_loosest().friction);
   EXPECT_EQ(layers[1].packing.balls, post::balls_of(layers[1]));
@@ -520,9 +520,11 @@ TEST_F(PlanTest, RefusesEachBadLine) {
       bed + "layer 0.3 48-32\n",
       ", line 6: layer is '0.3 48-32'; allowed: a number from 1e-06 to 100000 [m], and behind it "
       "nothing, the smallest and the largest size, in mm, as 32-48, or relative_density and a number "
-      "from 0 to 1");
-  expect_refused(bed + "layer 0.3 relative_density 2\n",
-                 ", line 6: layer is '0.3 relative_density 2'; allowed: a number from ");
+      ">= 0");
+  expect_refused(bed + "layer 0.3 relative_density 2\nscene a\n",
+                 ", line 7: scene is 'a'; allowed: relative densities of at most 1.");
+  expect_refused(bed + "layer 0.3 relative_density -1\n",
+                 ", line 6: layer is '0.3 relative_density -1'; allowed: a number from ");
   expect_refused(bed + "layer 0.3 relative_density 1\nlayer 0.3\nscene a\n",
                  ", line 8: scene is 'a'; allowed: relative_density of all layers, or of none");
   expect_refused(bed + "layer 0.3 relative_density 1\nradius_min 0.01\nscene a\n",

@@ -92,7 +92,8 @@ TEST_F(BedAdviceTest, NamesTheCheapestSceneWithinTheError) {
   const std::string spot = post::scene_commands(
       post::read_plan(post::input_file("study/drive/plan")).scene("soft spot of 1 m"))[0];
   EXPECT_EQ(
-      spot.rfind("bed --layer 0.4 --layer 0.3 --relative-density 0.9 --relative-density 0.1 --spot ", 0), 0U)
+      spot.rfind("bed --layer 0.4 --layer 0.3 --relative-density 1.237 --relative-density 0.137 --spot ", 0),
+      0U)
       << spot;
 }
 
@@ -424,7 +425,7 @@ TEST_F(AdviseCommand, TellsHowManyBedsTheGainOfDensityNeeds) {
   const Outcome outcome = run({"--bed", "--question", "density", "--within", "20%"});
   EXPECT_TRUE(
       printed(outcome, {"for        lift_gain within 20 %", "0.033 +- 0.016 -, one bed +- 0.013 (5 seeds)",
-                        "bed --layer 0.4 --layer 0.3 --relative-density 0.9 --relative-density 0.1"}));
+                        "bed --layer 0.4 --layer 0.3 --relative-density 1.237 --relative-density 0.137"}));
   EXPECT_FALSE(outcome.says("for  cycles"));
 }
 

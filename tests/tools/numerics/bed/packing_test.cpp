@@ -194,17 +194,18 @@ TEST(RelativeDensity, IsThatOfTheVoidRatio) {
 }
 
 TEST(MeasuredPackings, PourALayerWithTheFrictionBetweenTwoPackings) {
-  const MeasuredPackings packings(rows);
+  const MeasuredPackings packings(rows, 0.22);
+  EXPECT_NEAR(packings.most(), 1.25, 1e-12);
   for (const auto &[relative, friction, void_ratio] :
-       {std::array{0.0, 0.8, 0.30}, std::array{1.0, 0.0, 0.20}, std::array{0.4, 0.2, 0.26},
-        std::array{0.7, 0.1, 0.23}, std::array{0.1, 0.6, 0.29}}) {
+       {std::array{0.0, 0.8, 0.30}, std::array{1.25, 0.0, 0.20}, std::array{0.5, 0.2, 0.26},
+        std::array{0.875, 0.1, 0.23}, std::array{0.125, 0.6, 0.29}}) {
     const Pouring poured = packings.pouring(relative);
     EXPECT_NEAR(poured.friction, friction, 1e-12) << relative;
     EXPECT_NEAR(poured.rolling, 0.5 * friction, 1e-12) << relative;
     EXPECT_NEAR(poured.void_ratio, void_ratio, 1e-12) << relative;
     EXPECT_NEAR(poured.solid_fraction(), 1.0 / (1.0 + void_ratio), 1e-12) << relative;
     EXPECT_DOUBLE_EQ(poured.loosest, 0.30);
-    EXPECT_DOUBLE_EQ(poured.densest, 0.20);
+    EXPECT_DOUBLE_EQ(poured.shaken, 0.22);
   }
 }
 
@@ -212,22 +213,53 @@ TEST(MeasuredPackings, PourALayerWithTheFrictionBetweenTwoPackings) {
 TEST(MeasuredPackings, DoNotFollowTheScatterOfSinglePackings) {
   std::vector<MeasuredPackings::Row> scattered = rows;
   scattered[3].void_ratio = 0.25;
-  EXPECT_NEAR(MeasuredPackings(scattered).pouring(0.2).friction, 0.6, 1e-12);
+  EXPECT_NEAR(MeasuredPackings(scattered, 0.22).pouring(0.25).friction, 0.6, 1e-12);
   scattered[3].void_ratio = 0.31;
-  EXPECT_NEAR(MeasuredPackings(scattered).pouring(0.0).friction, 0.4, 1e-12);
+  EXPECT_NEAR(MeasuredPackings(scattered, 0.22).pouring(0.0).friction, 0.4, 1e-12);
 }
 
-TEST(MeasuredPackings, NeedTheLoosestAndTheDensest) {
-  EXPECT_THROW(MeasuredPackings({}), std::invalid_argument);
-  EXPECT_THROW(MeasuredPackings({rows[0], rows[2]}), std::invalid_argument);
-  EXPECT_THROW(MeasuredPackings({rows[1], rows[2]}), std::invalid_argument);
-  EXPECT_THROW(MeasuredPackings({{1.0, 0.8, 0.4, 0.2}, {0.0, 0.0, 0.0, 0.2}}), std::invalid_argument);
+TEST(MeasuredPackings, NeedTheLoosestTheFrictionlessAndTheShaken) {
+  EXPECT_THROW(MeasuredPackings({}, 0.22), std::invalid_argument);
+  EXPECT_THROW(MeasuredPackings({rows[0], rows[2]}, 0.22), std::invalid_argument);
+  EXPECT_THROW(MeasuredPackings({rows[1], rows[2]}, 0.22), std::invalid_argument);
+  EXPECT_THROW(MeasuredPackings({{1.0, 0.8, 0.4, 0.2}, {0.0, 0.0, 0.0, 0.2}}, 0.1), std::invalid_argument);
+  for (const double shaken : {0.3, 0.0, -0.1})
+    EXPECT_THROW(MeasuredPackings(rows, shaken), std::invalid_argument) << shaken;
 }
 
-// The stored packings: the relative density of each share falls with it, from 1 to 0.
+// A table of packings as text and read again; of the frictionless scale, which no laboratory has, none is
+// read.
+TEST(MeasuredPackings, AreReadAsTheyAreWritten) {
+  const post::TemporaryFolder folder(std::filesystem::temp_directory_path(), "drumlin-packings-");
+  const std::filesystem::path file = folder.path() / "packings.csv";
+  MeasuredPackings packings(rows, 0.22);
+  packings.estimated = true;
+  post::write_files({{file, post::packings_csv(packings)}});
+  const MeasuredPackings read = post::read_packings(file);
+  EXPECT_DOUBLE_EQ(read.shaken(), 0.22);
+  EXPECT_TRUE(read.estimated);
+  EXPECT_EQ(read.poured().size(), 4U);
+  EXPECT_DOUBLE_EQ(read.most(), 1.25);
+  const std::string columns = "share,friction,rolling,void_ratio,dimension,spread",
+                    poured = "1,0.8,0.4,0.3,2,0.2,poured\n0,0,0,0.2,2,0.2,frictionless\n",
+                    shaken = "1,0.8,0.4,0.22,2,0.2,shaken\n";
+  for (const std::string &text :
+       {columns + "\n1,0.8,0.4,0.3,2,0.2\n0,0,0,0.2,2,0.2\n", columns + ",made\n" + poured,
+        columns + ",made\n" + poured + shaken + shaken,
+        columns + ",made\n" + poured + "1,0.8,0.4,0.22,2,0.2,x\n"}) {
+    post::write_files({{file, text}});
+    EXPECT_THROW(post::read_packings(file), std::runtime_error) << text;
+  }
+}
+
+// The stored packings: the relative density of each share falls with it, to 0. Shaken soil is poured with a
+// tenth of its friction or so.
 TEST(MeasuredPackings, OfGravelAreStored) {
-  for (const char *name : {"bed/packings.gravel.csv", "bed/packings.gravel3d.csv"}) {
-    const MeasuredPackings stored = post::read_packings(post::input_file(name));
+  for (const int name : {2, 3}) {
+    const MeasuredPackings stored = post::packings_of_gravel(name);
+    EXPECT_FALSE(stored.estimated) << name;
+    EXPECT_GT(stored.shaken(), stored.frictionless().void_ratio) << name;
+    EXPECT_NEAR(stored.pouring(stored.most()).friction, 0.0, 1e-9) << name;
     EXPECT_DOUBLE_EQ(stored.of_loosest().friction, 0.8) << name;
     double before = 2.0;
     for (const double relative : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
@@ -240,16 +272,15 @@ TEST(MeasuredPackings, OfGravelAreStored) {
 
 TEST(NotedPackings, AreThoseOfTheLayers) {
   EXPECT_TRUE(post::noted_packings({{"layer_tops", "0.3,0.6"}}).empty());
-  EXPECT_TRUE(
-      post::noted_packings({{"layer_tops", "0.3"}, {"e_loosest", "unknown"}, {"e_densest", "unknown"}})
-          .empty());
+  EXPECT_TRUE(post::noted_packings({{"layer_tops", "0.3"}, {"e_loosest", "unknown"}, {"e_shaken", "unknown"}})
+                  .empty());
   const auto layers =
-      post::noted_packings({{"layer_tops", "0.3,0.6"}, {"e_loosest", "0.3,0.4"}, {"e_densest", "0.2,0.25"}});
+      post::noted_packings({{"layer_tops", "0.3,0.6"}, {"e_loosest", "0.3,0.4"}, {"e_shaken", "0.2,0.25"}});
   ASSERT_EQ(layers.size(), 2u);
   EXPECT_DOUBLE_EQ(post::layer_at(layers, 0.1).loosest, 0.3);
   EXPECT_DOUBLE_EQ(post::layer_at(layers, 0.5).loosest, 0.4);
-  EXPECT_DOUBLE_EQ(post::layer_at(layers, 0.7).densest, 0.25);
-  EXPECT_THROW(post::noted_packings({{"layer_tops", "0.3"}, {"e_loosest", "much"}, {"e_densest", "0.2"}}),
+  EXPECT_DOUBLE_EQ(post::layer_at(layers, 0.7).shaken, 0.25);
+  EXPECT_THROW(post::noted_packings({{"layer_tops", "0.3"}, {"e_loosest", "much"}, {"e_shaken", "0.2"}}),
                std::runtime_error);
 }
 

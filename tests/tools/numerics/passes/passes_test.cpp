@@ -134,7 +134,7 @@ protected:
                   parameters_text(given(
                       "deck drive, dimension 2, measure_from -1, measure_to 1, speed {}, omega {}, Fw {}, m2 "
                       "{}, m3 {}, roller_width 2, timestep {}, layers 2, seed {}, layer_tops 0.4,0.6, "
-                      "e_loosest 0.9,0.9, e_densest 0.2,0.2, ended {}",
+                      "e_loosest 0.9,0.9, e_shaken 0.2,0.2, ended {}",
                       number_text(speed), number_text(w), number_text(Fw), number_text(m2), number_text(m3),
                       number_text(1.0 / (frequency * steps_per_cycle)), run.seed, run.ended))}});
     for (int pass = 0; pass <= run.passes; ++pass)
@@ -379,7 +379,7 @@ TEST_F(Passes, SayWhichBedsOnlyLoosen) {
   run.bed = [](int) { return Bed{0.036, 0, 1000.0}; };
   write_run("run", run);
   EXPECT_TRUE(contains(page(), {"Inside, the lift began at a solid fraction of 0.886",
-                                "shaking leaves at most 0.825 of such soil"}));
+                                "shaking leaves at most 0.833 of such soil"}));
 }
 
 TEST_F(Passes, OfARollerThatDoesNotVibrateHaveNoMeterValues) {
