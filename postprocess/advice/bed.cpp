@@ -1,6 +1,6 @@
 #include "advice/bed.h"
 
-#include "support/range.h"
+#include "support/units.h"
 #include "support/text.h"
 #include "support/usage_error.h"
 

@@ -1,6 +1,6 @@
 #include "bed/coarse_graining.h"
 
-#include "support/constants.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 

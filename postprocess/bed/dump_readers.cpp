@@ -2,7 +2,7 @@
 
 #include "bed/vtk_messages.h"
 #include "support/csv.h"
-#include "support/range.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

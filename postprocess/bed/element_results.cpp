@@ -1,6 +1,6 @@
 #include "bed/element_results.h"
 
-#include "support/constants.h"
+#include "support/units.h"
 #include "support/statistics.h"
 
 #include <Eigen/QR>

@@ -1,10 +1,10 @@
 // Soil balls placed at random in a box, none touching another: the loose initial state, from which the bed
-// settles.
+// settles. The gradings of roads that it knows by name.
 #pragma once
 
 #include "bed/relative_density.h"
 #include "bed/sieve_curve.h"
-#include "support/range.h"
+#include "support/units.h"
 
 #include <array>
 #include <cstddef>
@@ -145,5 +145,29 @@ std::string bed_data(const std::vector<BedLayer> &layers, double density, const 
 Sieving sieved(const Packing &packing, int dimensions);
 /// The balls of one layer before it settles.
 Sieving sieved_layer(const Packing &packing, int dimensions, int layer);
+
+/// Limits for the share of the mass that passes a sieve.
+struct SieveLimits {
+  double size;         ///< mm
+  double lower, upper; ///< %
+};
+
+/// A grading that a specification describes.
+struct KnownGrading {
+  const char *name;
+  const char *what;   ///< material and range of sizes
+  const char *source; ///< specification, and where its numbers were read
+  std::vector<SieveLimits> limits;
+
+  /// The mean of the limits at each sieve.
+  SieveCurve curve() const;
+};
+
+/// All of them.
+const std::vector<KnownGrading> &known_gradings();
+/// The one of this name; nullptr if there is none.
+const KnownGrading *find_grading(const std::string &name);
+/// Their names, separated by commas.
+std::string grading_names();
 
 } // namespace drumlin::post

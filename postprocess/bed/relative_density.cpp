@@ -2,7 +2,7 @@
 
 #include "engine/deck_run.h"
 #include "support/csv.h"
-#include "support/range.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 

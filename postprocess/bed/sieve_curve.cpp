@@ -2,9 +2,8 @@
 
 #include "support/csv.h"
 #include "support/measured_table.h"
-#include "support/range.h"
-#include "support/text.h"
 #include "support/units.h"
+#include "support/text.h"
 
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/case_conv.hpp>

@@ -1,10 +1,10 @@
 #include "calibration/calibration.h"
 
-#include "calibration/search.h"
+#include "calibration/evaluations.h"
 #include "engine/deck_run.h"
 #include "support/parallel.h"
 #include "support/progress.h"
-#include "support/range.h"
+#include "support/units.h"
 #include "support/resumed.h"
 #include "support/usage_error.h"
 

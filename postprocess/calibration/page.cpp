@@ -1,6 +1,6 @@
 #include "calibration/page.h"
 
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 #include "pages/page.h"
 
 #include <fmt/format.h>

@@ -3,10 +3,10 @@
 #include "bed/element_results.h"
 #include "engine/deck_run.h"
 #include "experiment/quantity.h"
-#include "experiment/scene_run.h"
+#include "experiment/scene.h"
 #include "support/csv.h"
 #include "support/files.h"
-#include "support/constants.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 

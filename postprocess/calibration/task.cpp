@@ -1,7 +1,7 @@
 #include "calibration/task.h"
 
 #include "support/csv.h"
-#include "support/constants.h"
+#include "support/units.h"
 #include "support/usage_error.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // to meet.
 #pragma once
 
-#include "support/range.h"
+#include "support/units.h"
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "chain/analysis.h"
 
-#include "support/constants.h"
+#include "support/units.h"
 
 #include <algorithm>
 #include <array>

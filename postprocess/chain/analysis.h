@@ -12,7 +12,7 @@
 
 #include "chain/parameters.h"
 #include "runs/chain_files.h"
-#include "support/harmonics.h"
+#include "support/statistics.h"
 
 namespace drumlin::post {
 

@@ -1,6 +1,6 @@
 #include "chain/driven_way.h"
 
-#include "support/constants.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 

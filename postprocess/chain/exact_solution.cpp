@@ -2,7 +2,7 @@
 
 #include "chain/one_contact.h"
 #include "chain/two_ends.h"
-#include "support/range.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 // points up and x_drum = 0 where drum and soil just touch.
 #pragma once
 
-#include "support/range.h"
+#include "support/units.h"
 
 #include <array>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include "chain/linear_algebra.h"
 #include "files/roller.h"
-#include "support/range.h"
+#include "support/units.h"
 
 #include <Eigen/Core>
 #include <fmt/format.h>

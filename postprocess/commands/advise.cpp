@@ -9,7 +9,7 @@
 #include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/options.h"
-#include "support/constants.h"
+#include "support/units.h"
 #include "support/progress.h"
 
 #include <fmt/format.h>

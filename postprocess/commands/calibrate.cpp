@@ -4,7 +4,7 @@
 #include "calibration/page.h"
 #include "calibration/soil_tests.h"
 #include "calibration/task.h"
-#include "commands/roller_options.h"
+#include "commands/chain_options.h"
 #include "engine/places.h"
 #include "experiment/study.h"
 #include "support/csv.h"

@@ -3,7 +3,7 @@
 // subcommand runs.
 #pragma once
 
-#include "support/range.h"
+#include "support/units.h"
 #include "support/usage_error.h"
 
 #include <cstdint>

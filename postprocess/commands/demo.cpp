@@ -3,7 +3,7 @@
 #include "bed/packing.h"
 #include "commands/command.h"
 #include "engine/engine_command.h"
-#include "engine/engine_run.h"
+#include "engine/deck_run.h"
 #include "engine/places.h"
 #include "support/csv.h"
 #include "support/files.h"

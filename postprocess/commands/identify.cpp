@@ -5,7 +5,7 @@
 #include "runs/parameter_file.h"
 #include "support/files.h"
 #include "support/options.h"
-#include "support/constants.h"
+#include "support/units.h"
 #include "support/progress.h"
 
 #include <fmt/format.h>

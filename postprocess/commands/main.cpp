@@ -1,7 +1,7 @@
 // The tool behind ./drumlin: one program, one subcommand per job.
 #include "commands/commands.h"
-#include "support/range.h"
-#include "support/stop_signal.h"
+#include "support/units.h"
+#include "support/process.h"
 #include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>

@@ -1,8 +1,8 @@
 #include "commands/commands.h"
 
-#include "commands/roller_options.h"
+#include "commands/chain_options.h"
 #include "passes/page.h"
-#include "passes/tables.h"
+#include "passes/values.h"
 #include "runs/parameter_file.h"
 #include "support/files.h"
 #include "support/options.h"

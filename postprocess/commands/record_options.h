@@ -2,7 +2,7 @@
 // all subcommands that take a record.
 #pragma once
 
-#include "commands/roller_options.h"
+#include "commands/chain_options.h"
 #include "meter/along_way.h"
 #include "record/record.h"
 #include "support/options.h"

@@ -6,7 +6,7 @@
 #include "experiment/results.h"
 #include "experiment/runner.h"
 #include "experiment/study.h"
-#include "map/meter_study.h"
+#include "map/map_results.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/usage_error.h"

@@ -1,15 +1,36 @@
 // Runs of decks in temporary folders.
 #pragma once
 
-#include "engine/engine_run.h"
 #include "support/files.h"
+#include "support/process.h"
 
 #include <filesystem>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace drumlin::post {
+
+/// Values for a deck's variables, given by -var.
+using Variables = std::vector<std::pair<std::string, std::string>>;
+
+/// Runs a deck with the plugin on a number of ranks, for at most `limit` seconds or until `stop_when`; `out`
+/// is set to the folder. A deck whose name ends in .lammps is run by LAMMPS, any other by LIGGGHTS. Throws
+/// UsageError, a std::runtime_error, if that engine cannot be started: see engine_fault().
+Outcome run_deck(const std::filesystem::path &deck, const Variables &variables,
+                 const std::filesystem::path &folder, int ranks = 1, double limit = 600.0,
+                 const StopCondition &stop_when = {});
+
+/// Whether the plugin has been built for LAMMPS too.
+bool has_lammps();
+
+/// The engine's ERROR line in the output of a run; empty if there is none.
+std::string engine_error(const std::string &output);
+
+/// The preloaded library.
+std::string plugin_library();
 
 /// What the scene of a run causes: the same run fails in the same way whenever it is made again. All other
 /// faults, such as those of a full disk or of an engine that was killed, may pass.

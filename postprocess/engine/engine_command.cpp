@@ -1,7 +1,6 @@
 #include "engine/engine_command.h"
 
 #include "engine/places.h"
-#include "engine/plain_path.h"
 #include "support/files.h"
 #include "support/process.h"
 #include "support/text.h"

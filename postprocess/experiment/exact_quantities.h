@@ -20,4 +20,9 @@ const std::vector<ExactQuantity> &exact_quantities();
 /// The last cycles of a run of the chain, over which its steady errors count.
 constexpr int steady_error_cycles = 5;
 
+/// w0 dt of the lowest boundary between balls that are stable and balls that are not, from looks.dump,
+/// steps.csv and parameters.csv in the folder of a run: the geometric mean of the last stable step and the
+/// first unstable one; the longest step if all are stable. std::runtime_error if the first ball is unstable.
+double stable_step(const std::filesystem::path &folder);
+
 } // namespace drumlin::post

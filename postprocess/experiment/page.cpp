@@ -1,8 +1,8 @@
 #include "experiment/page.h"
 
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 #include "pages/page.h"
-#include "support/convergence.h"
+#include "support/statistics.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

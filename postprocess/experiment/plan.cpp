@@ -5,7 +5,7 @@
 #include "support/csv_schema.h"
 #include "support/files.h"
 #include "support/options.h"
-#include "support/range.h"
+#include "support/units.h"
 #include "support/usage_error.h"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "identify/identified_record.h"
 #include "meter/values.h"
 #include "passes/drive.h"
-#include "passes/tables.h"
+#include "passes/values.h"
 #include "support/csv.h"
 #include "support/csv_schema.h"
 #include "support/files.h"

@@ -2,7 +2,7 @@
 
 #include "experiment/page.h"
 #include "experiment/results.h"
-#include "experiment/scene_run.h"
+#include "experiment/scene.h"
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/parallel.h"

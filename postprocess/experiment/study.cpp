@@ -1,6 +1,6 @@
 #include "experiment/study.h"
 
-#include "engine/engine_run.h"
+#include "engine/deck_run.h"
 #include "engine/places.h"
 #include "support/files.h"
 #include "support/usage_error.h"

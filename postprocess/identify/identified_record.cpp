@@ -5,8 +5,7 @@
 #include "meter/values.h"
 #include "record/excitation.h"
 #include "support/csv.h"
-#include "support/constants.h"
-#include "support/range.h"
+#include "support/units.h"
 #include "support/statistics.h"
 
 #include <fmt/format.h>

@@ -2,11 +2,11 @@
 
 #include "chain/exact_solution.h"
 #include "meter/cycles.h"
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 #include "record/chain_record.h"
 #include "support/csv.h"
-#include "support/harmonics.h"
-#include "support/range.h"
+#include "support/statistics.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

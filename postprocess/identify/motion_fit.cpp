@@ -3,7 +3,7 @@
 #include "chain/linear_algebra.h"
 #include "record/both_ends.h"
 #include "record/excitation.h"
-#include "support/constants.h"
+#include "support/units.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "identify/page.h"
 
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 #include "pages/page.h"
-#include "support/constants.h"
+#include "support/units.h"
 #include "support/csv.h"
 
 #include <fmt/format.h>

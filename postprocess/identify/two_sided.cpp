@@ -3,7 +3,7 @@
 #include "record/both_ends.h"
 #include "record/excitation.h"
 #include "support/csv.h"
-#include "support/range.h"
+#include "support/units.h"
 #include "support/statistics.h"
 
 #include <fmt/format.h>

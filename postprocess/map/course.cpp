@@ -3,7 +3,7 @@
 #include "identify/identified_record.h"
 #include "record/chain_record.h"
 #include "support/parallel.h"
-#include "support/constants.h"
+#include "support/units.h"
 #include "support/progress.h"
 #include "support/resumed.h"
 

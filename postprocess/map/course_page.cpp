@@ -1,6 +1,6 @@
 #include "map/figures.h"
 #include "map/course.h"
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 #include "pages/page.h"
 
 #include <fmt/format.h>

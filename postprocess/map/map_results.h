@@ -2,7 +2,8 @@
 // page into a folder, and prints a summary. Points in tables of an earlier call are read, not computed again.
 #pragma once
 
-#include "map/ends_map.h"
+#include "chain/parameters.h"
+#include "map/ends.h"
 #include "map/regime_map.h"
 #include "meter/values.h"
 
@@ -35,5 +36,19 @@ void write_sweep(const MapTask &task);
 /// The same maps and sweeps of a drum with two ends.
 void write_ends_map(const MapTask &task);
 void write_ends_sweep(const MapTask &task);
+
+/// The chain of a roller of the study, with D of case II, and what its file has of the drum's size [m].
+struct SoilMachine {
+  ChainParameters chain;
+  std::optional<double> width, diameter;
+};
+/// \param roller case of Table 1, or MACHINE-SETTING of a file in inputs/rollers
+SoilMachine soil_machine(const std::string &roller);
+
+/// Makes the records that the folder does not have yet, and writes there
+///   records.csv  meter values, regime and identified stiffness of each point
+///   index.html   tables and figures
+/// \param quick few points, to see that it works
+void run_meter_study(const std::filesystem::path &out, bool quick);
 
 } // namespace drumlin::post

@@ -1,7 +1,7 @@
 #include "map/regime.h"
 
-#include "support/harmonics.h"
-#include "support/constants.h"
+#include "support/statistics.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

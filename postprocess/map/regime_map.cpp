@@ -2,7 +2,7 @@
 
 #include "support/csv.h"
 #include "support/parallel.h"
-#include "support/constants.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 

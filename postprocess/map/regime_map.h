@@ -35,7 +35,7 @@ struct MapAxis {
 };
 
 /// "NAME:FROM:TO:COUNT", behind it ":UNIT" of FROM and TO if not SI, ":log" or both; std::invalid_argument as
-/// support/range.h words it.
+/// support/units.h words it.
 MapAxis axis_from_text(const std::string &option, const std::string &text, int most_values);
 
 /// The chain that others of a map differ from.

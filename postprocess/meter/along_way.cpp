@@ -2,8 +2,7 @@
 
 #include "chain/linear_algebra.h"
 #include "support/csv.h"
-#include "support/constants.h"
-#include "support/range.h"
+#include "support/units.h"
 
 #include <Eigen/Core>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "chain/analysis.h"
 #include "runs/chain_files.h"
 #include "support/csv.h"
-#include "support/range.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 

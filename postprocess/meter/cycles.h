@@ -3,7 +3,7 @@
 
 #include "meter/sampling.h"
 #include "record/record.h"
-#include "support/harmonics.h"
+#include "support/statistics.h"
 
 #include <array>
 #include <complex>

@@ -1,11 +1,11 @@
 #include "meter/page.h"
 
 #include "meter/along_way.h"
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 #include "pages/page.h"
 #include "runs/parameter_file.h"
 #include "support/csv.h"
-#include "support/constants.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "meter/sampling.h"
 
-#include "support/constants.h"
+#include "support/units.h"
 
 #include <algorithm>
 #include <cmath>

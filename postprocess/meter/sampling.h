@@ -10,7 +10,7 @@
 #pragma once
 
 #include "record/record.h"
-#include "support/harmonics.h"
+#include "support/statistics.h"
 
 #include <complex>
 #include <cstddef>

@@ -1,7 +1,6 @@
 #include "meter/values.h"
 
-#include "support/constants.h"
-#include "support/range.h"
+#include "support/units.h"
 
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "meter/cycles.h"
-#include "support/harmonics.h"
+#include "support/statistics.h"
 
 #include <array>
 #include <cstddef>

@@ -1,11 +1,10 @@
 // The page of a study: its answer in words, tables and figures, in the style of the report.
 #pragma once
 
-#include "pages/acceptance.h"
+#include "pages/table.h"
 #include "pages/drawing.h"
 #include "pages/figure.h"
 #include "pages/html.h"
-#include "pages/table.h"
 
 #include <filesystem>
 #include <optional>

@@ -3,7 +3,7 @@
 #include "bed/dump_readers.h"
 #include "runs/parameter_file.h"
 #include "support/csv.h"
-#include "support/range.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,10 @@
 // acceptance say.
 #pragma once
 
+#include "pages/figure.h"
 #include "pages/page.h"
 #include "passes/meter_map.h"
+#include "passes/values.h"
 
 #include <cstddef>
 #include <optional>
@@ -36,5 +38,9 @@ PageFigure map_figure(const std::string &label, const JudgedMap &judged);
 std::optional<PageFigure> rule_figure(const std::string &label, const JudgedMap &judged, bool mean);
 /// What each pass has, as acceptance.csv.
 PageTable map_table(const JudgedMap &judged);
+
+/// The soil with the pressure in its balls and the roller, dump by dump: in three dimensions the balls that
+/// the middle section across the drum's axis cuts. \pre the run has dumps for it, PassesResult::animated
+PageFigure animation_of(const std::string &label, const PassesResult &result);
 
 } // namespace drumlin::post

@@ -1,6 +1,6 @@
 #include "passes/meter_map.h"
 
-#include "passes/tables.h"
+#include "passes/values.h"
 #include "support/csv.h"
 
 #include <fmt/format.h>

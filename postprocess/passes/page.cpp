@@ -1,10 +1,10 @@
 #include "passes/page.h"
 
 #include "bed/relative_density.h"
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 #include "pages/page.h"
-#include "passes/animation.h"
-#include "passes/tables.h"
+#include "passes/map_figures.h"
+#include "passes/values.h"
 #include "support/csv.h"
 
 #include <fmt/format.h>
@@ -363,11 +363,11 @@ std::string answer_of(const Results &results) {
       "surfaces",
       count_words(passes, "pass", "passes"), verb, passes == 1 ? "s" : "",
       first([layer](const PassValues &pass) { return pass.soil.thickness[layer]; }), first(phi), last(phi));
-  const double degree = last([layer](const PassValues &pass) { return pass.degree[layer]; });
-  if (std::isfinite(degree)) {
+  const double degree_inside = last([layer](const PassValues &pass) { return pass.degree[layer]; });
+  if (std::isfinite(degree_inside)) {
     const double relative = last([layer](const PassValues &pass) { return pass.relative_density[layer]; });
     text += fmt::format(" and inside to a degree of compaction of {:.1f} % (relative density {:.0f} %{})",
-                        100.0 * degree, 100.0 * relative,
+                        100.0 * degree_inside, 100.0 * relative,
                         relative < 0.0 ? ", looser than the loosest packing of dry soil" : "");
   }
   text += "; " + level_words(results, layer, gains);

@@ -1,7 +1,6 @@
 #include "passes/soil.h"
 
-#include "support/constants.h"
-#include "support/range.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 

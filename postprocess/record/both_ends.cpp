@@ -1,7 +1,7 @@
 #include "record/both_ends.h"
 
 #include "record/excitation.h"
-#include "support/range.h"
+#include "support/units.h"
 
 #include <cmath>
 

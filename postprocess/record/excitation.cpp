@@ -3,10 +3,9 @@
 #include "chain/contact_phases.h"
 #include "chain/linear_algebra.h"
 #include "record/both_ends.h"
-#include "record/sensor_range.h"
+#include "record/stretches.h"
 #include "support/csv.h"
-#include "support/constants.h"
-#include "support/range.h"
+#include "support/units.h"
 #include "support/statistics.h"
 
 #include <fmt/format.h>

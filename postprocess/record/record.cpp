@@ -4,10 +4,8 @@
 #include "record/stretches.h"
 #include "runs/parameter_file.h"
 #include "support/csv.h"
-#include "support/constants.h"
-#include "support/range.h"
-#include "support/statistics.h"
 #include "support/units.h"
+#include "support/statistics.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

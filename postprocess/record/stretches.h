@@ -1,5 +1,8 @@
-// Stretches of a record in which the exciter keeps one frequency, force and phase.
+// Stretches of a record in which the exciter keeps one frequency, force and phase; samples that the range of
+// a sensor has cut.
 #pragma once
+
+#include "record/record.h"
 
 #include <cstddef>
 #include <vector>
@@ -19,5 +22,18 @@ struct Stretch {
 /// \param interval between samples [s]
 /// \param nominal angular frequency of the exciter [rad/s], true to some per cent
 std::vector<Stretch> stretches_of(const std::vector<double> &signal, double interval, double nominal);
+
+/// Share of the values that are at a limit of the sensor, at the highest of them or at the lowest. Where a
+/// signal turns, values lie close together, too, but not this close: within a narrow range at its end there
+/// are about three times as many as in the next one. Noise behind the limit, and steps of the sensor, are
+/// allowed for.
+struct AtLimit {
+  double high = 0.0, low = 0.0;
+};
+AtLimit share_at_limit(const std::vector<double> &values);
+
+/// Refuses a measured record with an acceleration that stands still or is at the limit of its sensor;
+/// std::runtime_error of one line.
+void check_sensors(const Record &record);
 
 } // namespace drumlin::post

@@ -2,12 +2,13 @@
 // runs on beds, ends.html for runs of a drum that tilts.
 #pragma once
 
+#include "report/chain/tables.h"
+#include "report/content.h"
+#include "support/progress.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "report/chain/tables.h"
-#include "support/progress.h"
 
 namespace drumlin::post {
 
@@ -31,5 +32,8 @@ struct ReportOutcome {
 /// UsageError for folders or files that cannot be used, std::runtime_error for other failures; an earlier
 /// report then stays as it was.
 ReportOutcome write_report(const ReportOptions &options);
+
+/// The text of report.json.
+std::string summary_json(const ReportContent &content);
 
 } // namespace drumlin::post

@@ -1,15 +1,15 @@
 // Run folders as the report reads them: parameters, histories, and the files or columns that are missing.
 #pragma once
 
+#include "chain/analysis.h"
+#include "chain/parameters.h"
+#include "runs/chain_files.h"
+
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "chain/analysis.h"
-#include "chain/parameters.h"
-#include "runs/chain_files.h"
 
 namespace drumlin::post {
 
@@ -101,5 +101,12 @@ std::string last_cycles_words(const std::vector<int> &counts);
 
 /// Smallest number of cycles of a run that is compared with the reference values.
 constexpr int long_run_cycles = 100;
+
+/// Every report has this file, and only folders with it are replaced.
+constexpr const char *summary_file = "report.json";
+
+/// The report's folder as an absolute path without a trailing slash; its parent is made. Throws UsageError if
+/// it may not be replaced: it is no earlier report, or holds one of the folders that the report is made from.
+std::filesystem::path checked_place(const std::filesystem::path &out, const ReportFolders &folders);
 
 } // namespace drumlin::post

@@ -1,7 +1,7 @@
 #include "support/csv.h"
 
 #include "support/files.h"
-#include "support/range.h"
+#include "support/units.h"
 #include "support/text.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "support/files.h"
 
-#include "support/stop_signal.h"
+#include "support/process.h"
 #include "support/usage_error.h"
 
 #include <iterator>

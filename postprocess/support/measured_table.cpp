@@ -2,9 +2,8 @@
 
 #include "support/csv.h"
 #include "support/files.h"
-#include "support/range.h"
-#include "support/text.h"
 #include "support/units.h"
+#include "support/text.h"
 
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/replace.hpp>

@@ -4,7 +4,7 @@
 // Every function throws UsageError "OPTION is 'TEXT'; allowed: WHAT" for a text that is empty or not allowed.
 #pragma once
 
-#include "support/range.h"
+#include "support/units.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "support/progress.h"
 
-#include "support/stop_signal.h"
+#include "support/process.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include "support/resumed.h"
 
-#include "support/range.h"
+#include "support/units.h"
 #include "support/usage_error.h"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "engine/deck_run.h"
 #include "experiment/plan.h"
 #include "experiment/results.h"
-#include "experiment/scene_run.h"
+#include "experiment/scene.h"
 #include "runs/parameter_file.h"
 
 namespace drumlin::test {

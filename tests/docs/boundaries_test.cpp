@@ -318,12 +318,12 @@ TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
   EXPECT_FALSE(fits_adapter("lammps/pair.cpp", {"liggghts/pair_source.h", true}));
 
   EXPECT_TRUE(fits_postprocess("report/answer.cpp", "chain/analysis.h"));
-  EXPECT_TRUE(fits_postprocess("report/report.cpp", "report/chain/page.h"));
+  EXPECT_TRUE(fits_postprocess("report/report.cpp", "report/chain/tables.h"));
   for (const auto &[file, header] : {std::pair("chain/analysis.cpp", "report/run_folder.h"),
                                      {"meter/values.cpp", "identify/identification.h"},
-                                     {"calibration/soil_tests.cpp", "report/soil/plate.h"},
+                                     {"calibration/soil_tests.cpp", "report/soil/pages.h"},
                                      {"chain/analysis.cpp", "nowhere/run_folder.h"},
-                                     {"report/chain/page.cpp", "report/bed/page.h"}})
+                                     {"report/chain/tables.cpp", "report/bed/page.h"}})
     EXPECT_FALSE(fits_postprocess(file, header)) << file << " " << header;
 
   EXPECT_TRUE(fits_judge({"cvode/cvode.h", false}));

@@ -2,7 +2,7 @@
 #include "tests/support/page.h"
 #include "tests/support/run_folders.h"
 #include "tests/support/tool.h"
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 #include "pages/gnuplot.h"
 #include "pages/html.h"
 #include "pages/page.h"

@@ -5,7 +5,7 @@
 #include "pages/html.h"
 #include "report/report.h"
 #include "chain/exact_solution.h"
-#include "report/chain/page.h"
+#include "report/page.h"
 #include "report/run_folder.h"
 #include "support/text.h"
 #include "support/usage_error.h"

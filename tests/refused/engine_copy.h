@@ -3,7 +3,7 @@
 #pragma once
 
 #include "tests/support/prelude.h"
-#include "engine/engine_run.h"
+#include "engine/deck_run.h"
 
 namespace drumlin::test {
 

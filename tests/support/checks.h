@@ -3,7 +3,7 @@
 #pragma once
 
 #include "tests/support/prelude.h"
-#include "engine/engine_run.h"
+#include "engine/deck_run.h"
 #include "support/csv.h"
 
 namespace drumlin::test {

@@ -3,7 +3,7 @@
 
 #include "tests/support/checks.h"
 #include "chain/parameters.h"
-#include "engine/engine_run.h"
+#include "engine/deck_run.h"
 #include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/files.h"

@@ -9,10 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "pages/figure_data.h"
-#include "report/bed/bands.h"
+#include "pages/figure.h"
 #include "report/bed/snapshots.h"
-#include "support/constants.h"
+#include "support/units.h"
 
 namespace drumlin::post {
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "report/chain/measures.h"
-#include "support/constants.h"
+#include "support/units.h"
 
 namespace drumlin::post {
 

@@ -11,7 +11,7 @@
 #include "pages/drawing.h"
 #include "report/answer.h"
 #include "report/bed/figures.h"
-#include "report/chain/page.h"
+#include "report/page.h"
 
 namespace drumlin::post {
 

@@ -13,8 +13,8 @@
 
 #include "bed/coarse_graining.h"
 #include "bed/dump_readers.h"
-#include "pages/figure_data.h"
-#include "report/bed/bands.h"
+#include "pages/figure.h"
+#include "report/bed/figures.h"
 
 namespace drumlin::post {
 

@@ -1,11 +1,11 @@
 #include "report/chain/ends_page.h"
 
 #include "pages/drawing.h"
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 #include "pages/html.h"
 #include "record/chain_record.h"
 #include "record/record.h"
-#include "report/chain/page.h"
+#include "report/page.h"
 #include "report/content.h"
 #include "support/csv.h"
 

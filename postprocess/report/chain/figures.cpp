@@ -1,6 +1,6 @@
 #include "report/chain/figures.h"
 
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,16 +2,16 @@
 // comparison with the reference values of the paper's cases.
 #pragma once
 
+#include "chain/analysis.h"
+#include "chain/exact_solution.h"
+#include "report/run_folder.h"
+
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "chain/analysis.h"
-#include "chain/exact_solution.h"
-#include "report/run_folder.h"
 
 namespace drumlin::post {
 
@@ -119,5 +119,27 @@ void compare(ReportResults &results);
 /// not cut, those with the parameters of the case, long runs, runs in an engine, and the smallest velocity
 /// error. nullptr if there is no such run.
 const RunResult *best_run(const ReportResults &results, const std::string &case_name, Transition transition);
+
+/// One reference value of a case and a transition.
+struct ReferenceValue {
+  std::string case_name;  ///< "I" to "IV", or "D=0.2" of an impact
+  std::string transition; ///< "A" or "B"
+  std::string quantity;
+  std::string unit; ///< of low, high and tolerance; empty for a pure number
+  /// As given, in `unit`; equal unless the reference gives a range.
+  std::string low_text, high_text;
+  double low = 0.0, high = 0.0;
+  double tolerance = 0.0; ///< how far outside [low, high] a value may lie and still agree; NaN: not judged
+  std::string source;
+
+  int decimals() const; ///< digits given after the point
+};
+
+/// Every value, in the order of the file.
+const std::vector<ReferenceValue> &reference_values();
+
+/// The value of a case, a transition and a quantity, if there is one.
+const ReferenceValue *reference_value(const std::string &case_name, const std::string &transition,
+                                      const std::string &quantity);
 
 } // namespace drumlin::post

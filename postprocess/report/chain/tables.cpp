@@ -2,7 +2,7 @@
 
 #include "engine/places.h"
 #include "report/chain/engine_comparison.h"
-#include "report/chain/reference_values.h"
+#include "report/chain/measures.h"
 #include "support/text.h"
 
 #include <algorithm>

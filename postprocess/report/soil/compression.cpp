@@ -1,9 +1,10 @@
-#include "report/soil/compression.h"
+#include "report/soil/pages.h"
 
-#include "pages/figure_data.h"
+#include "bed/element_results.h"
+#include "pages/figure.h"
 #include "pages/page.h"
 #include "report/soil/strength_test.h"
-#include "support/constants.h"
+#include "support/units.h"
 #include "support/csv.h"
 #include "support/statistics.h"
 

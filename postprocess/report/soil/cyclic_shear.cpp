@@ -1,9 +1,9 @@
-#include "report/soil/cyclic_shear.h"
+#include "report/soil/pages.h"
 
 #include "engine/deck_run.h"
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 #include "report/soil/page_parts.h"
-#include "support/constants.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 

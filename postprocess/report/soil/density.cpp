@@ -1,6 +1,6 @@
-#include "report/soil/density.h"
+#include "report/soil/pages.h"
 
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 #include "pages/page.h"
 #include "report/soil/page_parts.h"
 #include "support/statistics.h"

@@ -1,12 +1,6 @@
 #include "report/soil/element_tests.h"
 
-#include "report/soil/compression.h"
-#include "report/soil/cyclic_shear.h"
-#include "report/soil/density.h"
-#include "report/soil/oedometer.h"
-#include "report/soil/own_weight.h"
-#include "report/soil/plate.h"
-#include "report/soil/shear.h"
+#include "report/soil/pages.h"
 
 namespace drumlin::post {
 

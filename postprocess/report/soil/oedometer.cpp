@@ -1,6 +1,7 @@
-#include "report/soil/oedometer.h"
+#include "report/soil/pages.h"
 
-#include "pages/figure_data.h"
+#include "runs/element_rows.h"
+#include "pages/figure.h"
 #include "pages/page.h"
 #include "report/soil/page_parts.h"
 #include "support/csv.h"

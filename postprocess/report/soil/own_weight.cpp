@@ -1,8 +1,9 @@
-#include "report/soil/own_weight.h"
+#include "report/soil/pages.h"
 
-#include "pages/figure_data.h"
+#include "bed/element_results.h"
+#include "pages/figure.h"
 #include "report/soil/page_parts.h"
-#include "support/constants.h"
+#include "support/units.h"
 #include "support/statistics.h"
 
 #include <fmt/format.h>

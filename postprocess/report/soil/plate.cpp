@@ -1,6 +1,7 @@
-#include "report/soil/plate.h"
+#include "report/soil/pages.h"
 
-#include "pages/figure_data.h"
+#include "bed/element_results.h"
+#include "pages/figure.h"
 #include "pages/page.h"
 #include "report/soil/page_parts.h"
 #include "support/csv.h"

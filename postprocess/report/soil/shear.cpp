@@ -1,7 +1,8 @@
-#include "report/soil/shear.h"
+#include "report/soil/pages.h"
 
+#include "bed/element_results.h"
 #include "report/soil/strength_test.h"
-#include "support/constants.h"
+#include "support/units.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bed/element_results.h"
-#include "pages/figure_data.h"
+#include "pages/figure.h"
 #include "report/soil/page_parts.h"
 
 #include <fmt/format.h>

@@ -1,12 +1,9 @@
 #include "tests/support/page.h"
 #include "tests/support/tool.h"
 #include "report/report.h"
-#include "report/soil/compression.h"
-#include "report/soil/cyclic_shear.h"
-#include "report/soil/oedometer.h"
-#include "report/soil/own_weight.h"
-#include "report/soil/plate.h"
-#include "report/soil/shear.h"
+#include "bed/element_results.h"
+#include "report/soil/pages.h"
+#include "runs/element_rows.h"
 #include "support/usage_error.h"
 
 namespace drumlin::test {

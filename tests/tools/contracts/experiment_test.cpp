@@ -10,9 +10,8 @@
 #include "experiment/quantity.h"
 #include "experiment/results.h"
 #include "experiment/scene.h"
-#include "experiment/scene_run.h"
 #include "map/course.h"
-#include "map/meter_study.h"
+#include "map/map_results.h"
 #include "support/resumed.h"
 
 #include <sys/resource.h>

@@ -2,7 +2,6 @@
 #include "tests/support/engine_runs.h"
 #include "engine/engine_command.h"
 #include "engine/places.h"
-#include "engine/plain_path.h"
 #include "support/usage_error.h"
 
 #include <unistd.h>

@@ -3,7 +3,6 @@
 #include "tests/support/run_folders.h"
 #include "support/process.h"
 #include "support/resumed.h"
-#include "support/stop_signal.h"
 #include "support/usage_error.h"
 
 #include <sys/resource.h>

@@ -1,6 +1,5 @@
 // Packings of balls, and their sieve curves.
 #include "tests/support/checks.h"
-#include "bed/known_gradings.h"
 #include "bed/packing.h"
 #include "bed/relative_density.h"
 #include "bed/sieve_curve.h"

@@ -2,7 +2,7 @@
 #include "tests/support/chain_record.h"
 #include "tests/support/engine_runs.h"
 #include "calibration/calibration.h"
-#include "calibration/search.h"
+#include "calibration/evaluations.h"
 #include "chain/exact_solution.h"
 #include "engine/deck_run.h"
 #include "identify/identified_record.h"

@@ -5,7 +5,7 @@
 #include "chain/exact_solution.h"
 #include "chain/parameters.h"
 #include "files/roller.h"
-#include "report/chain/reference_values.h"
+#include "report/chain/measures.h"
 #include "support/files.h"
 
 namespace drumlin::test {

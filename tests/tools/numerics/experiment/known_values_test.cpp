@@ -6,7 +6,7 @@
 #include "engine/deck_run.h"
 #include "experiment/plan.h"
 #include "experiment/quantity.h"
-#include "experiment/stable_step.h"
+#include "experiment/exact_quantities.h"
 #include "runs/parameter_file.h"
 
 namespace drumlin::test {

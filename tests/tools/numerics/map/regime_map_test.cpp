@@ -6,7 +6,6 @@
 #include "chain/one_contact.h"
 #include "files/roller.h"
 #include "map/ends.h"
-#include "map/ends_map.h"
 #include "map/orbits.h"
 #include "map/regime_map.h"
 #include "support/process.h"

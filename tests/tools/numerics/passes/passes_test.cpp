@@ -3,7 +3,6 @@
 #include "passes/drive.h"
 #include "passes/meter_map.h"
 #include "passes/page.h"
-#include "passes/tables.h"
 #include "passes/values.h"
 #include "runs/parameter_file.h"
 

@@ -3,7 +3,6 @@
 #include "tests/support/engine_runs.h"
 #include "chain/exact_solution.h"
 #include "record/record.h"
-#include "record/sensor_range.h"
 #include "record/stretches.h"
 
 namespace drumlin::test {

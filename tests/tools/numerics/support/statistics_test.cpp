@@ -1,6 +1,5 @@
 // Statistics and orders of convergence, from numbers whose answer is known.
 #include "tests/support/prelude.h"
-#include "support/convergence.h"
 #include "support/statistics.h"
 
 namespace {

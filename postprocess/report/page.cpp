@@ -1,4 +1,4 @@
-#include "report/chain/page.h"
+#include "report/page.h"
 
 #include "pages/drawing.h"
 #include "report/answer.h"
