@@ -83,11 +83,9 @@ AskedChain judged_chain(const ChainArguments &arguments) {
   constexpr double deepest = 10.0; // m, beyond what any soil would bear: k was meant in MN/m
   const double weight = (parameters.m2 + parameters.m3) * parameters.g;
   if (arguments.given("k") != nullptr && weight > deepest * parameters.k)
-    throw UsageError(
-        refusal("--k", parameters.k,
-                fmt::format("stiffnesses in N/m, above {:.2g}, into which the roller sinks by {:g} "
-                            "m; 60 MN/m is 60e6",
-                            weight / deepest, deepest)));
+    throw UsageError(refusal(
+        "--k", parameters.k,
+        fmt::format("above {:.2g} N/m, into which the roller sinks by {:g} m", weight / deepest, deepest)));
   if (chain.roller) {
     Roller &machine = chain.roller->machine;
     machine.m2 = parameters.m2;
