@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The largest number of cycles that in.chain allows.
-constexpr int most_cycles = 10'000'000;
+constexpr int most_advised_cycles = 10'000'000;
 
 struct AdviseArguments : Options {
   explicit AdviseArguments(Command &of) : Options(of) {
@@ -42,7 +42,7 @@ struct AdviseArguments : Options {
       number("--error", {1e-15, 1.0, "", false, false, true}, "relative error that is allowed", "1e-3");
   Text measure = text("--measure", "TEXT", "error of: velocity, force or acceleration", "velocity");
   Text stepping = text("--stepping", "TEXT", "second or stock", "second");
-  Count cycles = count("--cycles", 1, most_cycles, "length of the run, for its time", "30");
+  Count cycles = count("--cycles", 1, most_advised_cycles, "length of the run, for its time", "30");
   Text from =
       text("--from", "DIR",
            "folder of an accuracy study of your own (with --bed: of any study of beds), instead of the "

@@ -24,8 +24,8 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr int most_values = 2000; ///< per axis
-constexpr int least_cycles = 100; ///< fewer do not let a motion settle
+constexpr int most_values = 2000;     ///< per axis
+constexpr int least_map_cycles = 100; ///< fewer do not let a motion settle
 
 struct MapArguments : Options {
   explicit MapArguments(Command &of) : Options(of) {
@@ -54,8 +54,8 @@ struct MapArguments : Options {
                   "a NAME of an axis may be ratio, of k and c below the left half to those below the right "
                   "one; without axes k:5e6:100e6:39 over ratio:1:4:25:log",
                   most_contacts));
-  Count cycles =
-      count("--cycles", least_cycles, 100'000, "cycles of the excitation at each point, 100 or more", "300");
+  Count cycles = count("--cycles", least_map_cycles, 100'000,
+                       "cycles of the excitation at each point, 100 or more", "300");
   Count threads = count("--threads", 1, 256, "points at the same time", "2");
   ResultPath out = result_folder("--out", "folder of the results", "results/map");
   Flag fresh = flag("--fresh", "forget the points of an earlier call");

@@ -67,7 +67,7 @@ void put_history(CurveTable &table, const RunResult &result, TimeWindow window) 
               {reference.time[i], reference.time[i] - window.begin, reference.overlap[i],
                reference.velocity[i], reference.acceleration[i], reference.force[i]});
 }
-constexpr const char *history_columns =
+constexpr const char *figure_columns =
     "time (s),time in window (s),overlap (m),drum velocity (m/s),drum acceleration (m/s2),contact force (N)";
 constexpr const char *since_ms = "$3*1e3";
 
@@ -267,7 +267,7 @@ void plan_case(const ReportResults &results, std::size_t index, FigurePlan &plan
   const bool of_paper = all_at_case(runs);
   const std::string name = of_paper ? fmt::format("fig{}_case_{}", index + 4, case_name)
                                     : fmt::format("own_after_case_{}", case_name);
-  CurveTable table(history_columns);
+  CurveTable table(figure_columns);
   Panel panel{fmt::format("{}Drum acceleration{}, {}", of_paper ? label + "  " : "",
                           all_steady(runs) ? " at steady state" : "", case_title(case_name, runs)),
               fmt::format("time since the start of {} (ms)", shown_words(runs)),
@@ -385,7 +385,7 @@ void plan_loops(const ReportResults &results, std::size_t index, FigurePlan &pla
     return;
   }
   const std::string name = fmt::format("figR{}_loops_case_{}", index + 1, case_name);
-  CurveTable table(history_columns);
+  CurveTable table(figure_columns);
   Panel phase{"phase portrait", "drum position (mm), 0 = just touching", "drum velocity (m/s)", {}};
   Panel loop{"force against overlap", "overlap (mm)", "contact force (kN)", {}};
   double largest = 0.0;
