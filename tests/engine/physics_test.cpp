@@ -296,7 +296,7 @@ std::string lattice_deck(bool flat, const std::string &sides) {
       "lattice {} 0.2 origin 0.5 0.5 {}\nregion soil block -1 1 0 {} INF INF units box\n"
       "create_atoms 1 region soil\nregion upper block INF INF {} INF INF INF units box\n"
       "group upper region upper\nset group upper type 4\nset group all diameter 0.2\n"
-      "drumlin/density tops all layers 2 scale 0.5,0.5 0.2,0.2 0.5,1\nprint \"tops ${{tops}}\"\n",
+      "drumlin/density tops all layers 2 scale 0.5,0.5 0.2,0.2 0.5,1.2\nprint \"tops ${{tops}}\"\n",
       flat ? 2 : 3, sides, flat ? -0.1 : -0.4, flat ? 0.1 : 0.4, flat ? "sq" : "sc", flat ? 0.0 : 0.5,
       2.0 * radius * rows, 2.0 * radius * rows_of_lower);
 }
