@@ -47,8 +47,7 @@ struct ChainPoint {
   ChainErrors errors{};
 };
 
-/// One row of scaling.csv: a chain with random parameters, run with the number of steps that `drumlin advise`
-/// gives for it.
+/// One row of scaling.csv: a chain with random parameters, run with the number of steps that advise() gives.
 struct ScalingPoint {
   std::string stepping; ///< second or stock
   double target = 0.0;  ///< error that was asked for

@@ -1,5 +1,5 @@
 // Soil balls placed at random in a box, none touching another: the loose initial state, from which the bed
-// settles. The gradings of roads that it knows by name.
+// settles; and the gradings of base courses that have a name.
 #pragma once
 
 #include "bed/relative_density.h"

@@ -270,6 +270,11 @@ void pour_layers(const BedArguments &arguments, BedRequest &request) {
                       "gravel, {:.2f} of the way from the loosest to the frictionless packing, "
                       "uncertain by a tenth or more",
                       n + 1, 1.0 / wanted[n].packings->most()));
+    else if (wanted[n].relative < 0.4) // inputs/study/density
+      print_progress(
+          fmt::format("Layer {}: in.settle leaves layers that ask for less than 0.4 looser, by 0.2 to "
+                      "0.3 in the plane; it tells what it has got",
+                      n + 1));
     layer.pouring = wanted[n].packings->pouring(wanted[n].relative);
     if (!arguments.layers)
       layer.thickness *= layer.packing.balls / static_cast<double>(balls_of(layer));

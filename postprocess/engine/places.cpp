@@ -84,8 +84,8 @@ fs::path user_cache() {
   return home.empty() ? fs::path() : home / ".cache";
 }
 
-/// Makes a folder and those above it, which other users cannot read. Reports no error: the caller has to
-/// check that the folder exists.
+/// Makes a folder, and those above it that are missing, for this user alone. Errors are not reported: the
+/// caller checks that the folder exists.
 void make_private_folders(const fs::path &folder) {
   fs::path made;
   for (const fs::path &part : folder) {

@@ -30,8 +30,8 @@ constexpr double growth_limit = 1e3; // times the first push: a larger motion is
 constexpr double fast_growth = 1.0 + 1e-4;
 constexpr double fast_noise = 1e-11; // m: above rounding errors
 
-/// The largest fourth difference over the window: 16 times the part of the motion that changes sign every
-/// step, and next to nothing of a slow motion.
+/// The largest fourth difference over the window: 16 times the amplitude of what changes sign every
+/// step; of a motion that takes many steps it is nearly zero.
 double fast_part(const std::vector<double> &x) {
   double most = 0.0;
   for (std::size_t n = 4; n < x.size(); ++n)

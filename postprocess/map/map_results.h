@@ -37,7 +37,7 @@ void write_sweep(const MapTask &task);
 void write_ends_map(const MapTask &task);
 void write_ends_sweep(const MapTask &task);
 
-/// The chain of a roller of the study, with D of case II, and what its file has of the drum's size [m].
+/// A roller of the study on soil with D of case II; width and diameter of its drum [m] if its file has them.
 struct SoilMachine {
   ChainParameters chain;
   std::optional<double> width, diameter;

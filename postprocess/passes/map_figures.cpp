@@ -270,7 +270,7 @@ PageFigure animation_of(const std::string &label, const PassesResult &result) {
   panel.x_range = axis_range(bounds.low[0], bounds.high[0]);
   panel.y_range = axis_range(std::min(0.0, bounds.low[1]), bounds.high[1]);
   const double shape = (bounds.high[1] - std::min(0.0, bounds.low[1])) / (bounds.high[0] - bounds.low[0]);
-  constexpr double wide = 900.0, margins = 110.0; // px, of the axes and below and above them
+  constexpr double wide = 900.0, margins = 110.0; // px: width of the axes, space above and below
   figure.figure.height = static_cast<int>(std::clamp(wide * shape + margins, 260.0, 800.0));
   figure.figure.panels = {panel};
   figure.csv = table.text();

@@ -485,9 +485,9 @@ void add_compression(std::vector<Row> &rows) {
        once,
        {near("most " + ratio, strength(0.3), 5e-3 * strength(0.3)), energy_balance(1e-3)}});
   // The upper platen moves by 4 nm in a time step, and its position is a multiple of 15 pm, the spacing of
-  // floating-point numbers there. The limit of the energy error is exceeded if the distance of a step is not
-  // a multiple of this spacing, if the platen is not at rest before it is accelerated, or if the work of the
-  // side platen is computed from its velocity.
+  // floating-point numbers there. The energy error exceeds its limit if a step is no multiple of this
+  // spacing, if the platen does not start at rest, or if the work of the side platen is computed from its
+  // velocity.
   rows.push_back({"biaxial",
                   "BalancesTheEnergyOfASlowTest",
                   lattice + "hexagonal, friction 0, strain 2e-4, inertial_number 2e-5" + slowly,

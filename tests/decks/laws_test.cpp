@@ -164,7 +164,8 @@ TEST_P(HertzImpactsUnderSecond, ErrorFallsWithTheSquareOfTheStep) {
   }
 }
 
-/// Duration of an undamped contact, s. \param m, R effective mass, kg, and radius, m
+/// Contact time [s] of an undamped Hertzian impact with speed v [m/s]. \param m effective mass [kg] \param R
+/// effective radius [m]
 double duration(double E_eff, double m, double R, double v) {
   const double k = 4.0 / 3.0 * E_eff * std::sqrt(R);
   return 0.8 * std::tgamma(0.4) * std::tgamma(0.5) / std::tgamma(0.9) * std::pow(1.25 * m * v * v / k, 0.4) /

@@ -250,6 +250,27 @@ TEST(Boundaries, NoTwoHeadersOfThePostprocessorDefineATypeOfOneName) {
   EXPECT_GT(defined.size(), 100U);
 }
 
+// Sources of a room are compiled together (CMAKE_UNITY_BUILD): a constant of one would take the place of a
+// header's in all others, without a word of the compiler.
+TEST(Boundaries, ConstantsOfSourcesHideNoneOfHeaders) {
+  static const std::regex constant(
+      R"re(\n(?:inline |static )?(?:constexpr|const) [^=;({\n]*[ *&](\w+)(?:\[\w*\])? *[={;])re");
+  std::map<std::string, std::string> of_headers;
+  std::vector<std::pair<std::string, std::string>> of_sources; // name, file
+  for (const fs::path &file : files("postprocess", is_source)) {
+    const std::string text = text_of(file), path = file.lexically_relative(root).string();
+    for (std::sregex_iterator i(text.begin(), text.end(), constant), end; i != end; ++i)
+      if (file.extension() == ".h")
+        of_headers.emplace((*i)[1].str(), path);
+      else
+        of_sources.emplace_back((*i)[1].str(), path);
+  }
+  EXPECT_GT(of_headers.size(), 50U);
+  EXPECT_GT(of_sources.size(), 200U);
+  for (const auto &[name, file] : of_sources)
+    EXPECT_EQ(of_headers.count(name), 0U) << name << " in " << file << " and " << of_headers[name];
+}
+
 TEST(Boundaries, ThePostprocessorAndItsTestsKnowNothingOfThePlugin) {
   for (const char *folder : {"tests/tools", "tests/pages", "tests/nightly", "postprocess", "tests/support"})
     expect_includes(folder, [](const std::string &, const Include &include) { return fits_judge(include); });

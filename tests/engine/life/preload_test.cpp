@@ -540,6 +540,18 @@ TEST_P(DeckVariablesTest, ThatAreNewHaveTheirDefaultsInEarlierFiles) {
                       "variable yield is '3'; allowed: 1, with which 'own.data' was made"));
 }
 
+// The report compares linear chains alone, and takes the law from this row.
+TEST_P(DeckVariablesTest, ARecordNamesTheLawOfThePairStyle) {
+  const bool lammps = GetParam();
+  for (const char *law : {"hooke/transition", "hertz/transition", "yield/transition"}) {
+    const std::string style =
+        fmt::format(lammps ? "pair_style gran/{}\n" : "pair_style gran model {}\n", law);
+    well(run("drumlin/record before.csv\n" + box() + style + "drumlin/record parameters.csv\n", {}));
+    EXPECT_EQ(row("contact_law"), law);
+    EXPECT_FALSE(contains(read_text(folder_ / "before.csv"), "contact_law"));
+  }
+}
+
 // A table does what its lines would do in the deck: formulas of variables above, values that the deck has set
 // before, groups of which each has its own default; what is declared already keeps its declaration.
 TEST_P(DeckVariablesTest, StandInATable) {

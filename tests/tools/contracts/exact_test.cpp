@@ -599,7 +599,9 @@ TEST_F(ToolOptions, LayersArePouredForTheirRelativeDensity) {
   EXPECT_TRUE(
       printed(outcome, {"at a relative density of 0.125: void ratio 0.290 (0.300 loosest, 0.220 shaken), "
                         "poured with friction 0.6 and rolling friction 0.3",
+                        "Layer 1: in.settle leaves layers that ask for less than 0.4 looser, by 0.2 to 0.3",
                         "friction 0; denser than shaking leaves it, so that it can only loosen"}));
+  EXPECT_FALSE(contains(outcome.output, "Layer 2: in.settle leaves"));
   const std::string text = post::read_text(folder_ / "balls.data");
   for (const char *note : {"relative_density 0.125,1.25\n", "e_loosest 0.3,0.3\n", "e_shaken 0.22,0.22\n",
                            "pour_friction 0.6,0\n", "pour_rolling 0.3,0\n", "packings_friction 0.8,0.8\n",

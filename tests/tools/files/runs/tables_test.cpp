@@ -499,7 +499,7 @@ TEST_F(MeasuredTables, HaveHeadersOfSeveralRows) {
   EXPECT_EQ(table.rows(), 2U);
   EXPECT_EQ(table.columns()[2].unit, "g");
   EXPECT_EQ(MeasuredTable(put("t,a,b\n1,2,3\n2,0.1,0.2\n3,0.3,0.1\n")).rows(), 3U); // no sensors
-  // A row of units alone, which must not be lost.
+  // A first row of units without names: the columns keep their units.
   const MeasuredTable nameless(put("ms;g\n1;2\n2;3\n"));
   EXPECT_EQ(nameless.columns()[nameless.find("1").value()].unit, "ms");
   EXPECT_EQ(nameless.columns()[1].unit, "g");

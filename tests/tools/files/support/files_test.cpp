@@ -280,7 +280,7 @@ namespace process {
 
 using post::Program;
 
-/// A program that runs a shell line in a scratch folder and writes its output to the file `text` there.
+/// Runs a line of sh in a scratch folder; what it prints goes to the file `text` there.
 Program shell(const Scratch &scratch, const std::string &line) {
   Program program;
   program.words = {"sh", "-c", line};

@@ -1,4 +1,4 @@
-// Periodic motions, their modes, and their course over a parameter.
+// Periodic motions of the roller: how they are found, their stability, and how they change along a parameter.
 #include "tests/support/chain_by_cvode.h"
 #include "tests/support/eigenvalues.h"
 #include "tests/support/page.h"
@@ -622,7 +622,7 @@ TEST_F(CourseCommand, WritesValuesMarksAndAPage) {
   EXPECT_EQ(read_text(folder_ / "m/meter.csv"), meter);
 }
 
-// Any number may be the axis; without a drum's size there is no E_vib.
+// Any parameter of roller or soil may be the axis. E_vib needs the drum's size, which is not given here.
 TEST_F(CourseCommand, AlongOtherNumbers) {
   draw();
   well(map({"--x", "frequency:18:30:4", "--me-re", "4", "--identify", "0", "--out", "f"}));

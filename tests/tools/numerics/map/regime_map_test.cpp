@@ -649,7 +649,7 @@ TEST_F(EndsMapCommand, WritesModesOverStiffnessAndRatio) {
     EXPECT_TRUE(fs::is_regular_file(scratch_ / "m" / name)) << name;
   EXPECT_GT(read_table(scratch_ / "m/boundaries.csv").rows(), 1U);
 
-  // Continued where it was interrupted, it is the same.
+  // A map that was interrupted and continued equals one that was made in a single call.
   const std::string whole = read_text(scratch_ / "m/regimes.csv");
   const std::vector<std::string> lines = lines_of(whole);
   std::string part;
