@@ -2,6 +2,7 @@
 #include "tests/support/engine_runs.h"
 #include "engine/deck_variables.h"
 #include "support/measured_table.h"
+#include "support/units.h"
 
 #include <unistd.h>
 
@@ -471,6 +472,25 @@ TEST_F(MeasuredTables, LinesAtTheEndThatAreCutOrTextAreLeftOut) {
             std::string::npos);
   EXPECT_NE(message("t,a,b\n1,2,3\n2,3\n3,4,5\n").find("line 3: the number of cells is '2'; allowed: 3"),
             std::string::npos);
+}
+
+// A factor is that of the prefix times that of the unit.
+TEST(Units, HaveTheFactorsOfTheirPrefixes) {
+  int known = 0;
+  for (const auto &[prefix, factor] : {std::pair("", 1.0), std::pair("u", 1e-6), std::pair("m", 1e-3),
+                                       std::pair("c", 1e-2), std::pair("k", 1e3)})
+    for (const auto &[name, of_unit] :
+         {std::pair("s", 1.0), std::pair("m", 1.0), std::pair("m/s", 1.0), std::pair("m/s2", 1.0),
+          std::pair("N", 1.0), std::pair("g", 9.80665)}) {
+      const std::optional<post::Unit> unit = post::unit_from_text(prefix + std::string(name));
+      if (!unit || std::string(unit->name) != prefix + std::string(name)) continue;
+      EXPECT_NEAR(unit->factor, factor * of_unit, 1e-12 * factor) << unit->name;
+      ++known;
+    }
+  EXPECT_EQ(known, 19);
+  EXPECT_EQ(post::unit_from_text("MN")->factor, 1e6);
+  EXPECT_EQ(post::unit_from_text("min")->factor, 60.0);
+  EXPECT_EQ(post::unit_from_text("%")->factor, 0.01);
 }
 
 // Names, units and names of sensors below one another, in each order, over numbers of each kind.
